@@ -198,6 +198,13 @@ impl<'a, S: Spectrum> Context<'a, S> {
         }
     }
 
+    /// Whether paths that end on no map ask for the light of area lights in mirrors or through
+    /// panes.
+    pub(crate) fn shows_emitters_past_specular(&self) -> bool {
+        let is_past_panes = self.world.has_panes() && self.lights.emitters.is_some();
+        is_past_panes || self.images.show_emitters()
+    }
+
     /// The point set of a trial: a Halton sequence where the run has a fixed number of points,
     /// since a few of these are no sample of the set.
     pub(crate) fn points_of_trial(&self, replicate: u32, stream: Stream) -> PointSet {

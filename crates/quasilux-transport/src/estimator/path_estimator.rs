@@ -153,11 +153,7 @@ impl<'a, S: Spectrum> PathEstimator<'a, S> {
         let Plan { light_vertices, prepared, rays, is_bidirectional } = plan(&request);
         work.rays += rays;
         let Prepared { end, counts: photons } = prepared;
-        // Light on maps is not asked for.
-        let most_unasked = match end {
-            PathEnd::Nothing => context.images.most_left_out(&context.world),
-            PathEnd::Frozen(_) | PathEnd::Own { .. } => 1.0,
-        };
+        let most_unasked = end.most_unasked(context);
         Self {
             context,
             scene,

@@ -57,7 +57,7 @@ pub(crate) fn decide<S: Spectrum>(
     }
     let connections = settings.connections();
     let tried = Tried::new(context, request);
-    let mut rays = tried.paths.trial.rays as u64;
+    let mut rays = tried.traced as u64;
     let tries_map = connections != Some(true);
     let choice = if tries_map { tried.map_pilot(context, settings, watch) } else { None };
     let of_plain = tried.rays(&tried.plain());
@@ -97,6 +97,8 @@ struct Tried<S> {
     recorded: Vec<f64>,
     /// Of paths that end by Russian roulette, on no map.
     plain: Outcome,
+    /// Rays of all trials.
+    traced: f64,
 }
 
 impl<S: Spectrum> Tried<S> {
@@ -110,14 +112,23 @@ impl<S: Spectrum> Tried<S> {
         let wanted = ErrorTarget::new(settings, &sample, means_lx);
         let later = if settings.sequence == Sequence::Independent { 1.0 } else { LATER };
         let recorded: Vec<f64> = wanted.variances(trial).iter().map(|v| later * v).collect();
-        let Outcome { variances, rays } = paths.records.alone(&wanted);
-        let rays = rays + sample.beside_rays();
-        let variances = recorded.iter().zip(variances).map(|(v, more)| v + more).collect();
-        Self { sample, paths, wanted, recorded, plain: Outcome { variances, rays } }
+        let mut traced = paths.trial.rays;
+        let plain = if context.shows_emitters_past_specular() {
+            // They ask for more than recorded ones do.
+            let trial = Trial::of_paths(context, &sample, None, request.quantum);
+            traced += trial.rays;
+            let variances = wanted.variances(&trial).iter().map(|v| later * v).collect();
+            Outcome { variances, rays: trial.rays }
+        } else {
+            let Outcome { variances, rays } = paths.records.alone(&wanted);
+            let variances = recorded.iter().zip(variances).map(|(v, more)| v + more).collect();
+            Outcome { variances, rays }
+        };
+        Self { sample, paths, wanted, recorded, plain, traced }
     }
 
     fn recorded(&self) -> PilotCost<'_> {
-        PilotCost::of_paths(&self.recorded, self.paths.trial.rays + self.sample.beside_rays())
+        PilotCost::of_paths(&self.recorded, self.paths.trial.rays)
     }
 
     fn plain(&self) -> PilotCost<'_> {
@@ -137,8 +148,7 @@ impl<S: Spectrum> Tried<S> {
         watch: &mut Watch<'_>,
     ) -> Option<MapPilot<S>> {
         let (recorded, alone) = (&self.recorded(), &self.plain());
-        let beside_rays = self.sample.beside_rays();
-        let paths = PathPilot { records: &self.paths.records, recorded, alone, beside_rays };
+        let paths = PathPilot { records: &self.paths.records, recorded, alone };
         MapPilot::new(context, settings, &paths, &self.wanted, watch)
     }
 

@@ -24,6 +24,9 @@ use quasilux_scene::light::Luminaire;
 use quasilux_scene::{Light, Scene};
 use std::f64::consts::PI;
 
+/// Of many so many are asked where a path starts: the choice there has most of the noise, and rays
+/// that start together cost little.
+const AT_SENSOR: u32 = 8;
 /// Places along each coordinate from which a shape is probed for surfaces that cut it.
 const PROBES: u32 = 4;
 
@@ -91,6 +94,11 @@ impl<'a> AreaLuminaires<'a> {
         self.choice.dimensions() > 1
     }
 
+    /// How many of them are asked where a path starts.
+    pub(crate) fn asked_at_sensor(&self) -> u32 {
+        if self.are_many() { AT_SENSOR } else { u32::from(!self.is_empty()) }
+    }
+
     /// An estimate of what all of them give: what one place on one of them offers. `u` leads to the
     /// place; where they are not many its first coordinate chooses the luminaire, too.
     pub(crate) fn light_sample<S: Spectrum>(
@@ -100,7 +108,7 @@ impl<'a> AreaLuminaires<'a> {
         u: [f64; 2],
         work: &mut ChoiceWork,
     ) -> Option<LightSample<S>> {
-        let place = Asking { position: vertex.position(), side: vertex.only_side() };
+        let place = Asking::at(vertex);
         let around = |light: usize, around: &Surroundings| self.lights[light].weight_around(around);
         let weigh = |lights: &[usize]| self.coarse.weights(lights, place);
         let chosen = self.choice.choose(place, u_choice.unwrap_or(u), around, weigh, work);

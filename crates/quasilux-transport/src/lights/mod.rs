@@ -4,17 +4,21 @@
 //! by what `coarse_lights` says.
 
 mod area_luminaires;
+mod coarse_facets;
 mod coarse_lights;
 mod emitting_facets;
+mod facet_group;
 pub(crate) mod images;
 mod pointlike;
+mod seen_triangle;
 mod selection;
 
 pub(crate) use area_luminaires::AreaLuminaires;
 pub(crate) use coarse_lights::coarse_tables_bytes;
-pub(crate) use emitting_facets::Emitters;
+pub(crate) use emitting_facets::{EmitterPoint, Emitters};
+pub(crate) use facet_group::EmitterPlace;
 pub(crate) use pointlike::{Incidence, LightCentre, PointLikes};
-pub(crate) use selection::{ChoiceWork, tables_bytes};
+pub(crate) use selection::{Asking, ChoiceWork, tables_bytes};
 
 use crate::lights::images::LightPathClass;
 use crate::purpose::{Purpose, PurposeRecorder};

@@ -139,7 +139,7 @@ impl<'a> PointLikes<'a> {
         if let [only] = self.lights[..] {
             return light_sample(only, vertex);
         }
-        let place = Asking { position: vertex.position(), side: vertex.only_side() };
+        let place = Asking::at(vertex);
         let weigh = |lights: &[usize]| {
             let mut weights = self.coarse.weights(lights, place);
             if !vertex.is_plain() {

@@ -12,13 +12,15 @@
 //! estimate is divided by the probabilities of both. Tables depend on nothing but the scene, so it
 //! does not matter who makes them.
 
+use crate::spectrum::Spectrum;
+use crate::world::vertex::Vertex;
 use glam::DVec3;
 use quasilux_sampling::{Discrete, DiscreteSample, choose_weights};
 use std::array;
 use std::sync::OnceLock;
 
 /// Fewer lights are all asked what they would give.
-const MIN_MANY: usize = 16;
+pub(super) const MIN_MANY: usize = 16;
 /// Lights that are weighed together.
 pub(super) const LANES: usize = 8;
 /// Lights that are drawn of many. Twice as many leave 5 % less error, at a third more time in all.
@@ -48,9 +50,9 @@ pub(super) struct LightChoice {
 
 /// A place that asks for light, on one side or on both.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Asking {
-    pub(super) position: DVec3,
-    pub(super) side: Option<DVec3>,
+pub(crate) struct Asking {
+    pub(crate) position: DVec3,
+    pub(crate) side: Option<DVec3>,
 }
 
 /// A light that was chosen.
@@ -85,6 +87,12 @@ pub(super) struct Surroundings {
     side: Option<DVec3>,
 }
 
+impl Asking {
+    pub(crate) fn at<S: Spectrum>(vertex: &Vertex<'_, S>) -> Self {
+        Self { position: vertex.position(), side: vertex.only_side() }
+    }
+}
+
 impl LightChoice {
     /// Among so many lights in a box around the geometry.
     pub(super) fn new(lights: usize, bounds: Option<[DVec3; 2]>) -> Self {
@@ -114,10 +122,7 @@ impl LightChoice {
         let asked = &mut work.asked;
         asked.clear();
         let u = if let Some(cubes) = &self.cubes {
-            let around = |around: &Surroundings| -> Vec<f64> {
-                (0..self.lights).map(|light| weight_around(light, around)).collect()
-            };
-            let table = cubes.table(place, around)?;
+            let table = cubes.table(place, self.lights, weight_around)?;
             let drawn: [DiscreteSample; CANDIDATES] =
                 array::from_fn(|number| table.sample((u[0] + number as f64) / CANDIDATES as f64));
             let weights = weigh(&drawn.map(|drawn| drawn.index));
@@ -137,6 +142,62 @@ impl LightChoice {
             }
             u[0]
         };
+        work.choose_asked(u)
+    }
+
+    /// Chooses a light with a probability that can be told of every light, see
+    /// [`Self::probability`]: of many by the table alone. `weights` say about what the lights give
+    /// at the place.
+    pub(super) fn choose_without_candidates(
+        &self,
+        place: Asking,
+        u: f64,
+        weight_around: impl Fn(usize, &Surroundings) -> f64,
+        weights: impl Iterator<Item = f64>,
+        work: &mut ChoiceWork,
+    ) -> Option<ChosenLight> {
+        work.asked.clear();
+        if let Some(cubes) = &self.cubes {
+            let drawn = cubes.table(place, self.lights, weight_around)?.sample(u);
+            let DiscreteSample { index: light, pdf, u_remapped } = drawn;
+            return Some(ChosenLight { light, pdf, u_remapped });
+        }
+        let ask = |(light, weight)| Asked { light, expected: 1.0, weight };
+        work.asked.extend(weights.enumerate().map(ask));
+        work.choose_asked(u)
+    }
+
+    /// The probability with which [`Self::choose_without_candidates`] chooses a light.
+    pub(super) fn probability(
+        &self,
+        light: usize,
+        place: Asking,
+        weight_around: impl Fn(usize, &Surroundings) -> f64,
+        weights: impl Iterator<Item = f64>,
+    ) -> f64 {
+        if let Some(cubes) = &self.cubes {
+            let table = cubes.table(place, self.lights, weight_around);
+            return table.map_or(0.0, |table| table.pdf(light));
+        }
+        let mut own = 0.0;
+        let shares = Defensive::new(weights.enumerate().map(|(number, weight)| {
+            own = if number == light { weight } else { own };
+            weight
+        }));
+        let raised = shares.raise(own);
+        if raised > 0.0 { raised / shares.total } else { 0.0 }
+    }
+}
+
+impl ChoiceWork {
+    /// The sum of the weights: no number where one of them is none.
+    pub(super) fn total(&self) -> f64 {
+        self.asked.iter().map(|it| it.weight).sum()
+    }
+
+    /// One of the lights that were asked.
+    fn choose_asked(&mut self, u: f64) -> Option<ChosenLight> {
+        let asked = &mut self.asked;
         let shares = Defensive::new(asked.iter().map(|it| it.weight));
         asked.iter_mut().for_each(|it| it.weight = shares.raise(it.weight));
         let choice = choose_weights(u, asked.iter().map(|it| it.weight))?;
@@ -146,16 +207,10 @@ impl LightChoice {
     }
 }
 
-impl ChoiceWork {
-    /// The sum of the weights: no number where one of them is none.
-    pub(super) fn total(&self) -> f64 {
-        self.asked.iter().map(|it| it.weight).sum()
-    }
-}
-
 /// Gives each weight its part of the defensive share: none that is not 0 is chosen with less than
 /// `DEFENSIVE_SHARE / n` of n.
 struct Defensive {
+    total: f64,
     each: f64,
 }
 
@@ -164,7 +219,7 @@ impl Defensive {
         let (total, count) = weights.fold((0.0, 0.0), |(total, count), weight| {
             (total + weight, count + f64::from(u8::from(weight > 0.0)))
         });
-        Self { each: DEFENSIVE_SHARE * total / f64::max(count, 1.0) }
+        Self { total, each: DEFENSIVE_SHARE * total / f64::max(count, 1.0) }
     }
 
     fn raise(&self, weight: f64) -> f64 {
@@ -208,11 +263,12 @@ impl Cubes {
         }
     }
 
-    /// The table for a place, made of the weights of its surroundings.
+    /// The table for a place, made of the weights of so many lights in its surroundings.
     fn table(
         &self,
         Asking { position, side }: Asking,
-        weights: impl FnOnce(&Surroundings) -> Vec<f64>,
+        lights: usize,
+        weight: impl Fn(usize, &Surroundings) -> f64,
     ) -> Option<&Discrete> {
         let offset = (position - self.low) * self.cubes_per_m;
         let cube: [usize; 3] =
@@ -225,7 +281,8 @@ impl Cubes {
         let make = || {
             let edge_m = self.cubes_per_m.recip();
             let centre = self.low + (DVec3::from_array(cube.map(|i| i as f64)) + 0.5) * edge_m;
-            let weights = weights(&Surroundings { centre, edge_m, side: along });
+            let around = Surroundings { centre, edge_m, side: along };
+            let weights: Vec<f64> = (0..lights).map(|light| weight(light, &around)).collect();
             let shares = Defensive::new(weights.iter().copied());
             Discrete::new(&weights.into_iter().map(|it| shares.raise(it)).collect::<Vec<f64>>())
         };
@@ -354,6 +411,39 @@ mod tests {
             let [error, deviation] = [errors, variances].map(|sum: f64| (sum / squares).sqrt());
             assert!(error < 0.01, "{count} lights: the mean is off by {error}");
             assert!(deviation < 0.4, "{count} lights: estimates deviate by {deviation}");
+        }
+    }
+
+    /// Few by what they give, many by their table: the share of coordinates that chooses each is
+    /// the probability that is told, and these add up to one.
+    #[test]
+    fn probabilities_are_told() {
+        for count in [1, 5, 15, 16, 90] {
+            let beams = beams(count);
+            let choice = LightChoice::new(beams.len(), Some(BOX));
+            let around = |light: usize, around: &Surroundings| {
+                let beam = &beams[light];
+                around.lx(beam.position, 0.0, |direction| beam.intensity_cd(direction) + 2.0)
+            };
+            for place in (0..20).map(place) {
+                const STEPS: u32 = 20_000;
+                let weights = || beams.iter().map(|beam| beam.lx(place));
+                let mut shares = vec![0.0; beams.len()];
+                let mut work = ChoiceWork::default();
+                for step in 0..STEPS {
+                    let u = (f64::from(step) + 0.5) / f64::from(STEPS);
+                    let chosen =
+                        choice.choose_without_candidates(place, u, around, weights(), &mut work);
+                    let Some(chosen) = chosen else { continue };
+                    let told = choice.probability(chosen.light, place, around, weights());
+                    assert!((told - chosen.pdf).abs() < 1e-12, "{told} {chosen:?}");
+                    shares[chosen.light] += 1.0 / f64::from(STEPS);
+                }
+                for (light, share) in shares.iter().enumerate() {
+                    let told = choice.probability(light, place, around, weights());
+                    assert!((told - share).abs() < 2.0 / f64::from(STEPS), "{told} {share}");
+                }
+            }
         }
     }
 

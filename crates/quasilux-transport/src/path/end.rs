@@ -97,7 +97,19 @@ impl<S: Spectrum> GrowingMaps<'_, S> {
     }
 }
 
-impl<S> PathEnd<S> {
+impl<S: Spectrum> PathEnd<S> {
+    /// The most that is left of the light of area lights that comes to paths over specular surfaces
+    /// and that they do not ask for. They never ask where maps hold it, and do not look for it
+    /// where all of them end on a map at their first surface.
+    pub(crate) fn most_unasked(&self, context: &Context<'_, S>) -> f64 {
+        let look_for_all = match self {
+            Self::Nothing => false,
+            Self::Own { .. } => !context.world.maps_all_that_scatters(),
+            Self::Frozen(_) => true,
+        };
+        if look_for_all { 1.0 } else { context.images.most_left_out(&context.world) }
+    }
+
     /// Photons of all maps for each index.
     pub(crate) fn photons_of_an_index(&self, replicates: u32) -> u64 {
         match self {

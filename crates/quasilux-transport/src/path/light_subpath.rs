@@ -8,9 +8,9 @@ use crate::bsdf::{Bsdf, TransportMode};
 use crate::context::Context;
 use crate::cutoff::{Gain, MAX_EVENTS};
 use crate::lights::images::{ImageQuery, LightPathClass, Links};
-use crate::lights::{Emission, Emitted};
+use crate::lights::{Asking, Emission, Emitted, EmitterPlace};
 use crate::path::russian_roulette::{CERTAIN_BOUNCES, russian_roulette_factor};
-use crate::path::subpath_weights::SubpathWeights;
+use crate::path::subpath_weights::{SubpathWeights, product};
 use crate::spectrum::Spectrum;
 use crate::world::frame::Frame;
 use crate::world::vertex::{Surface, Vertex};
@@ -42,8 +42,8 @@ struct LightSubpath<'p, S> {
     light: usize,
     /// [`LightPathClass::Found`] after the first surface, and from emitting facets.
     path_class: LightPathClass,
-    /// The image of its emitting facet that mirrors show, or the facet itself behind panes, as
-    /// long as nothing else scattered it.
+    /// Its emitting facet, as seen from here straight, in mirrors or behind panes, as long as
+    /// nothing else scattered it.
     image: Option<EmitterImage>,
     weights: SubpathWeights,
     gain: Gain,
@@ -53,9 +53,9 @@ struct LightSubpath<'p, S> {
 #[derive(Clone, Copy)]
 struct EmitterImage {
     number: u32,
+    left_from: EmitterPlace,
     /// Flights so far, in m.
     distance_m: f64,
-    emitted_cd_m2: f64,
     /// Density in m^-2 sr^-1 of photons that leave the facet as this one did.
     emission: f64,
     /// Whether there are panes between.
@@ -115,19 +115,18 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
         let Context { lights, world, purposes, .. } = context;
         let Emitted { light, emission, path_class } =
             lights.emit(world, *purposes, &mut sampler)?;
-        let emitters = lights.emitters.as_ref();
         // Of light without a facet known where it lands.
         let (mut weights, mut image) = (SubpathWeights::SENSOR, None);
-        if let Some((facet, emitters)) = emission.from.facet().zip(emitters) {
+        if let Some(facet) = emission.from.facet() {
+            let left_from = EmitterPlace { facet, position: emission.from.position() };
             let facet = &world.facets[facet as usize];
             let cos = facet.front_normal.dot(emission.direction);
-            let emitted_cd_m2 = facet.emitted_cd_m2;
-            let per_m2_sr = emitted_cd_m2 * cos / lights.flux_lm;
-            weights = SubpathWeights::of_emission(per_m2_sr, emitters.pdf_m2(emitted_cd_m2), cos);
+            let per_m2_sr = facet.emitted_cd_m2 * cos / lights.flux_lm;
+            weights = SubpathWeights::of_emission(per_m2_sr, cos);
             image = context.images.emitter(facet.material).map(|number| EmitterImage {
                 number,
+                left_from,
                 distance_m: 0.0,
-                emitted_cd_m2,
                 emission: per_m2_sr,
                 behind_panes: false,
             });
@@ -215,17 +214,23 @@ impl<S: Spectrum> LightSubpath<'_, S> {
         let Context { world, images, lights, .. } = context;
         let Some(mut image) = self.image.take() else { return };
         image.distance_m += at.distance_m;
-        let emitters = lights.emitters.as_ref().filter(|_| image.behind_panes);
-        if world.bsdf(at).is_specular() {
+        let bsdf = world.bsdf(at);
+        if bsdf.is_specular() {
             self.image = Some(image);
-        } else if emitters.is_some() || images.is_mirrored_emitter(image.number) {
-            let pdf_m2 = emitters.map_or_else(
-                || images.asked_m2(image.number, image.emitted_cd_m2),
-                |emitters| emitters.pdf_m2(image.emitted_cd_m2),
-            );
-            let vcm = pdf_m2 / image.emission * image.distance_m * image.distance_m / cos;
-            self.weights = self.weights.unfolded(vcm);
+            return;
         }
+        let side = (!bsdf.transmits()).then_some(at.n);
+        let place = Asking { position: at.position, side };
+        let pdf_m2 = if images.is_mirrored_emitter(image.number) {
+            images.asked_m2(world, image.number, place, image.left_from)
+        } else if let Some(emitters) = &lights.emitters {
+            emitters.pdf_m2(world, place, image.left_from)
+        } else {
+            0.0
+        };
+        let square_m2 = image.distance_m * image.distance_m;
+        let vcm = product(pdf_m2, square_m2 / (image.emission * cos));
+        self.weights = self.weights.asked(vcm);
     }
 
     /// The density in m^-2 with which light of a point or luminaire lands here over the specular

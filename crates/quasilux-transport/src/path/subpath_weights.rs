@@ -42,9 +42,9 @@ impl SubpathWeights {
     }
 
     /// On an emitting facet that a photon leaves with the density `emission` in m^-2 sr^-1 at this
-    /// cosine, and that is asked for light with the density `pdf_m2`.
-    pub(crate) fn of_emission(emission: f64, pdf_m2: f64, cos: f64) -> Self {
-        Self { vcm: pdf_m2 / emission, vc: cos / emission }
+    /// cosine. Where it lands says how the facet is asked for light: see [`Self::asked`].
+    pub(crate) fn of_emission(emission: f64, cos: f64) -> Self {
+        Self { vcm: 0.0, vc: cos / emission }
     }
 
     /// After a flight of this length that ends at this cosine.
@@ -63,9 +63,10 @@ impl SubpathWeights {
         Self { vcm: 0.0, vc: self.vc * cos }
     }
 
-    /// After a way over plane mirrors between two vertices of which each asks for what the mirrors
-    /// show of the other: `vcm` as it is where no mirror is between, with the way unfolded.
-    pub(crate) fn unfolded(self, vcm: f64) -> Self {
+    /// After a way between two vertices, perhaps over plane mirrors or through panes, where each
+    /// may ask for light of the other: `vcm` as it is where nothing is between, with the way
+    /// unfolded.
+    pub(crate) fn asked(self, vcm: f64) -> Self {
         Self { vcm, ..self }
     }
 
@@ -81,7 +82,7 @@ impl SubpathWeights {
     /// The weight of an eye subpath that runs into a facet: `pdf_m2` as it is asked for light,
     /// `emission` as a photon leaves it.
     pub(crate) fn of_hit(self, pdf_m2: f64, emission: f64) -> f64 {
-        1.0 / (1.0 + pdf_m2 * self.vcm + emission * self.vc)
+        1.0 / (1.0 + product(pdf_m2, self.vcm) + product(emission, self.vc))
     }
 }
 
@@ -253,12 +254,14 @@ mod tests {
         fn of_light(&self, at: usize) -> SubpathWeights {
             let (light, last) = (self.light(), self.surfaces());
             let nodes: Vec<usize> = (at..=light).rev().collect();
-            if !self.is_point {
-                let cos = self.cos(light, last);
-                let start = SubpathWeights::of_emission(self.emission(), self.asked_m2(), cos);
-                return self.carried(start, &nodes);
-            }
-            let landed = SubpathWeights::of_landing(Some(self.landing_m2()));
+            let landed = if self.is_point {
+                SubpathWeights::of_landing(Some(self.landing_m2()))
+            } else {
+                let left = SubpathWeights::of_emission(self.emission(), self.cos(light, last));
+                let (distance_m, cos) = (self.distance_m(light, last), self.cos(last, light));
+                let as_drawn = self.emission() * cos / (distance_m * distance_m);
+                left.arrived(distance_m, cos).asked(self.asked_m2() / as_drawn)
+            };
             if at == last {
                 return landed;
             }

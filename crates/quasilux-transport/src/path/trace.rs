@@ -22,8 +22,8 @@ mod virtual_light;
 use crate::bsdf::TransportMode;
 use crate::context::Context;
 use crate::cutoff::Gain;
-use crate::lights::ChoiceWork;
 use crate::lights::images::ImageSamples;
+use crate::lights::{Asking, ChoiceWork};
 use crate::path::contribution::PathContribution;
 use crate::path::end::Rest;
 use crate::path::light_subpath::{LightSubpaths, scattered};
@@ -32,7 +32,7 @@ use crate::path::partition::{Partition, PartitionWeights};
 use crate::path::russian_roulette::{CERTAIN_BOUNCES, russian_roulette_factor};
 use crate::path::sketch::{PixelSketch, ProbedLights};
 use crate::path::start::{Measurement, Start};
-use crate::path::subpath_weights::SubpathWeights;
+use crate::path::subpath_weights::{SubpathWeights, product};
 use crate::path::vertex_record::VertexRecord;
 use crate::photon::caustics::CausticLookup;
 use crate::photon::virtual_lights::Sums;
@@ -59,8 +59,6 @@ pub(crate) struct PathResult<S> {
     pub(crate) records: Vec<VertexRecord<S>>,
     /// Its rays, but for those that ask for light.
     pub(crate) flights: u32,
-    /// Rays by which it would have asked for light in mirrors, had it recorded nothing.
-    pub(crate) rays_unasked: u32,
 }
 
 /// A path on its way.
@@ -85,6 +83,8 @@ pub(crate) struct Path<'p, S> {
     direction: DVec3,
     /// The density in sr^-1 that the direction was drawn with; `None` where no other could be.
     pdf_sr: Option<f64>,
+    /// Where it last asked for the light of area lights.
+    asked_from: Option<Asking>,
     /// The mirrors or panes since then, where its last vertex asked for area lights behind them.
     specular_way: Option<SpecularWay>,
     /// Factors from radiance along the path to what its start seeks.
@@ -101,15 +101,12 @@ pub(crate) struct Path<'p, S> {
     found: PathContribution<S>,
     records: Vec<VertexRecord<S>>,
     flights: u32,
-    rays_unasked: u32,
 }
 
 /// What the paths that travel together ask of the lights, with working space.
 #[derive(Default)]
 pub(crate) struct PathWork<S> {
     pub(crate) shadows: ShadowQueue<S>,
-    /// What they would have asked.
-    unasked: ShadowQueue<S>,
     choice: ChoiceWork,
     images: ImageSamples<S>,
     sums: Sums,
@@ -169,6 +166,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
             from,
             direction,
             pdf_sr,
+            asked_from: None,
             specular_way: None,
             beta,
             beta_emitted: beta,
@@ -179,7 +177,6 @@ impl<'p, S: Spectrum> Path<'p, S> {
             found: PathContribution::default(),
             records: Vec::new(),
             flights: 0,
-            rays_unasked: 0,
         };
         if let Measurement::Illuminance { n, tests_pointlikes } = measurement {
             path.sample_direct_at_start(context, n, tests_pointlikes, work);
@@ -377,7 +374,6 @@ impl<'p, S: Spectrum> Path<'p, S> {
             dimensions: self.sampler.used(),
             records: std::mem::take(&mut self.records),
             flights: self.flights,
-            rays_unasked: self.rays_unasked,
         }
     }
 
@@ -446,7 +442,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
         let cos = at.n.dot(self.direction).abs();
         let asked = match self.pdf_sr {
             Some(pdf_sr) => Some(Asked {
-                pdf_m2: emitters.pdf_m2(emitted_cd_m2),
+                pdf_m2: self.asked_m2(context, emitters, at),
                 inverse_of_direction_m2: at.distance_m * at.distance_m / (cos * pdf_sr),
             }),
             None => self.asked_past_specular(context, at),
@@ -456,12 +452,15 @@ impl<'p, S: Spectrum> Path<'p, S> {
         }
         let Asked { pdf_m2, inverse_of_direction_m2 } = asked.unwrap_or_default();
         let weight = match self.subpath {
-            None => 1.0 / (1.0 + pdf_m2 * inverse_of_direction_m2),
+            None => {
+                let ratio = product(pdf_m2, inverse_of_direction_m2);
+                1.0 / (1.0 + ratio * ratio)
+            }
             Some(subpath) => {
                 let emission = emitted_cd_m2 * cos / context.lights.flux_lm;
                 let is_past_specular = self.pdf_sr.is_none();
-                let unfolded = subpath.unfolded(inverse_of_direction_m2);
-                let subpath = if is_past_specular { unfolded } else { subpath };
+                let asked = subpath.asked(inverse_of_direction_m2);
+                let subpath = if is_past_specular { asked } else { subpath };
                 subpath.of_hit(pdf_m2, emission)
             }
         };

@@ -17,7 +17,7 @@ use crate::run::pixels::{MAX_SETS, PHOTONS};
 use crate::settings::{EstimatorKind, Reconstruction, Settings, Switch};
 use crate::spectrum::{Spectrum, is_grey};
 use crate::stats::tally::Sum;
-use quasilux_scene::{Rgb, Scene};
+use quasilux_scene::{Light, Rgb, Scene};
 
 /// Of each triangle while the hierarchy over all of them is built: the peak, and afterwards enough
 /// for the scene, its facets and the hierarchy.
@@ -77,6 +77,7 @@ impl MemoryNeed {
             scene_bytes: triangles
                 .saturating_mul(TRIANGLE_BYTES)
                 .saturating_add(tables_bytes(scene.lights.len(), scene.mesh.bounds()))
+                .saturating_add(tables_bytes(emitting_triangles(scene), scene.mesh.bounds()))
                 .saturating_add(coarse_tables_bytes(&scene.lights)),
             sums_bytes: points.saturating_mul(point_bytes(settings)),
             cells_bytes: cells_bytes(settings, points),
@@ -209,6 +210,14 @@ fn virtual_lights_bytes(scene: &Scene, settings: &Settings) -> u64 {
 
 fn product<const N: usize>(of: [u64; N]) -> u64 {
     of.into_iter().fold(1, u64::saturating_mul)
+}
+
+fn emitting_triangles(scene: &Scene) -> usize {
+    let triangles = scene.lights.iter().map(|light| match light {
+        Light::Area(area) => area.triangles.len(),
+        Light::Point(_) | Light::Luminaire(_) => 0,
+    });
+    triangles.sum()
 }
 
 fn total(of: impl IntoIterator<Item = u64>) -> u64 {

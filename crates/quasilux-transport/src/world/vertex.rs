@@ -58,6 +58,11 @@ impl<'w, S: Spectrum> Vertex<'w, S> {
         Self { from: world.ray_origin(at), n: at.n, beta, surface: Some(surface) }
     }
 
+    /// Whether paths start here.
+    pub(crate) fn is_sensor(&self) -> bool {
+        self.surface.is_none()
+    }
+
     pub(crate) fn position(&self) -> DVec3 {
         self.from.position()
     }

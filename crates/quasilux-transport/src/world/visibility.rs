@@ -156,14 +156,6 @@ impl<S: Spectrum> ShadowQueue<S> {
         self.questions.push(question);
     }
 
-    /// Drops all questions; tells how many rays they would have taken.
-    pub(crate) fn forget(&mut self) -> u32 {
-        let rays = self.shadow_rays.len() as u32;
-        self.shadow_rays.clear();
-        self.questions.clear();
-        rays
-    }
-
     /// Tells `receive` who gets how much light after how many mirrors and panes, in the order
     /// asked, and closes all questions.
     pub(crate) fn answer(&mut self, world: &World<S>, mut receive: impl FnMut(u32, S, u32)) {

@@ -49,7 +49,7 @@ fn direct_light_is_a_sum_of_two_blocks() {
         let [alone, total] = weights_of_paths(block);
         let error = libm::hypot(alone.standard_error, total.standard_error);
         assert!((alone.value - total.value).abs() < 4.0 * error, "{block:?}");
-        assert!(total.standard_error < 0.06 && total.value > 0.1, "{block:?}");
+        assert!(total.standard_error < 0.06 && total.value > 0.02, "{block:?}");
         sum += total.value;
     }
     assert!((sum - 1.0).abs() < 0.1, "{explanation:?}");

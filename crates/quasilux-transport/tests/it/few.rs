@@ -18,9 +18,8 @@ const PATCH_SIDE_M: f64 = 0.2;
 const SPOT: DVec3 = DVec3::new(6.0, 2.0, -0.1);
 const SPOT_CD: f64 = 250.0;
 
-/// A panel of 1 m by 1 m that shines down from 1.5 m, and a patch beside that reflects a point
-/// light.
-fn scene() -> Scene {
+/// A panel of 1 m by 1 m that shines down from 1.5 m.
+fn panel() -> Scene {
     let mut scene = empty();
     add_panel(&mut scene, DVec3::new(0.0, 0.0, 1.5), DVec3::Y, DVec3::X, diffuse(0.0));
     let (luminance_cd_m2, triangles) = (LUMINANCE_CD_M2, vec![0, 1]);
@@ -30,6 +29,12 @@ fn scene() -> Scene {
         area_m2: 1.0,
         luminance_cd_m2,
     }));
+    scene
+}
+
+/// The panel, and a patch beside it that reflects a point light.
+fn scene() -> Scene {
+    let mut scene = panel();
     let sides = [DVec3::X, DVec3::Y].map(|side| side * PATCH_SIDE_M);
     add_panel(&mut scene, PATCH_CORNER, sides[0], sides[1], diffuse(REFLECTANCE));
     scene.lights.push(point_light(SPOT, SPOT_CD));
@@ -85,7 +90,7 @@ fn a_tolerance_is_not_reached_by_a_handful_of_samples() {
 /// of a tolerance.
 #[test]
 fn a_tolerance_is_reached_where_a_limit_leaves_enough_samples() {
-    let mut scene = scene();
+    let mut scene = panel();
     scene.sensors = vec![points("below", &[(DVec3::new(0.5, 0.5, 0.0), DVec3::Z)])];
     for (samples, is_reached) in [(127, false), (128, true)] {
         let settings = Settings { max_samples: Some(samples), rel_tol: 0.2, ..Settings::default() };

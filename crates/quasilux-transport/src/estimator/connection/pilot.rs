@@ -145,7 +145,7 @@ impl ConnectionPilots {
         let [light_vertices, cells] = trials(&pilot, sample.targets.len(), &counts);
         // Photons that are counted serve all targets, not those of the sample alone.
         let cells = Trial { rays: cells.rays / sample.step as f64, ..cells };
-        let beside = Trial::of_paths_beside(context, sample, &pilot.connection.partition, quantum);
+        let beside = Trial::of_paths(context, sample, Some(&pilot.connection.partition), quantum);
         self.rays += pilot.rays + beside.rays as u64;
         self.rays += counts.iter().map(|counts| counts.rays).sum::<u64>();
         let beforehand = pilot.rays as f64 * sample.targets_for_each();
@@ -241,7 +241,7 @@ impl PathsAlone<'_> {
         }
         let missed = wanted.shortfall(|target| self.sampled_lx(sample, target), noise);
         let variances: Vec<f64> = wanted.variances(self.trial).iter().map(|v| v + missed).collect();
-        let plain = PilotCost::of_paths(&variances, self.trial.rays + sample.beside_rays());
+        let plain = PilotCost::of_paths(&variances, self.trial.rays);
         pilot.doubt * wanted.rays(&plain, &numbers.pilot_cost())
             < self.part * wanted.rays(&plain, &plain)
     }
@@ -308,7 +308,7 @@ impl ConnectionPilot {
                 })
                 .collect();
             let of_photons = self.light_vertices.rays * of_connected + self.cells.rays * of_cells;
-            let of_paths = self.beside.rays + sample.beside_rays();
+            let of_paths = self.beside.rays;
             let beforehand = self.beforehand;
             PhotonNumbers { connected, cell_photons, variances, of_paths, of_photons, beforehand }
         };

@@ -54,12 +54,9 @@ impl<S: Spectrum> PathTrial<S> {
 /// Rays by which a path asks lights themselves where it starts, at most.
 fn asked_at_start<S: Spectrum>(context: &Context<'_, S>, target: &Target) -> usize {
     let lights = &context.lights;
-    let areas = [
-        lights.emitters.is_some(),
-        context.images.show_emitters(),
-        !lights.area_luminaires.is_empty(),
-    ];
-    let areas = areas.into_iter().filter(|is_there| *is_there).count();
+    let areas = usize::from(lights.emitters.is_some())
+        + usize::from(context.images.show_emitters())
+        + lights.area_luminaires.asked_at_sensor() as usize;
     match target {
         Target::Point { .. } => areas,
         Target::Cell { .. } => areas + lights.pointlikes.len(),

@@ -48,8 +48,6 @@ pub(crate) struct PathPilot<'p, S> {
     pub(crate) recorded: &'p PilotCost<'p>,
     /// Ended by Russian roulette, on no map.
     pub(crate) alone: &'p PilotCost<'p>,
-    /// What the paths of a trial cost beside their rays, in rays.
-    pub(crate) beside_rays: f64,
 }
 
 /// Survival probabilities and photons of a map, and the cost of a run with them.
@@ -84,7 +82,7 @@ impl<S: Spectrum> MapPilot<S> {
         wanted: &ErrorTarget,
         watch: &mut Watch<'_>,
     ) -> Option<Self> {
-        let PathPilot { records, recorded, alone, beside_rays } = paths;
+        let PathPilot { records, recorded, alone } = paths;
         let affordable = wanted.rays(alone, alone) as u64;
         let mut map = Growing::new(context, settings, affordable / FIRST_SHOT_SHARE)?;
         let before = map.counts.rays;
@@ -99,7 +97,6 @@ impl<S: Spectrum> MapPilot<S> {
         let noise_share = paths.noise_share();
         let uses = candidates(&paths).into_iter().flat_map(|survival| {
             let Outcome { variances, rays } = paths.outcome(Ending::OnMap(&survival), wanted);
-            let rays = rays + beside_rays;
             let with_photons = move |doublings| {
                 let photons = pilots << doublings;
                 // More photons take out noise.

@@ -20,8 +20,6 @@ const MAX_NOISE: f64 = 0.75;
 pub(crate) struct PathRecords<S> {
     paths: Vec<Path<S>>,
     rays: RayCounts,
-    /// Rays more of the same paths, had they gone alone.
-    rays_unasked: u64,
 }
 
 /// What the paths of a trial took.
@@ -49,8 +47,6 @@ pub(super) struct Replay {
     rays: RayCounts,
     /// For each that a path takes itself, those that ask for light on its way included.
     rays_for_flight: f64,
-    /// More of these for paths that go alone.
-    unasked_for_flight: f64,
 }
 
 struct ReplayedPath {
@@ -74,14 +70,12 @@ impl<S: Spectrum> PathRecords<S> {
     pub(crate) fn add(&mut self, target: usize, path: &mut PathResult<S>) {
         let records = std::mem::take(&mut path.records);
         self.paths.push(Path { target, records, flights: path.flights });
-        self.rays_unasked += u64::from(path.rays_unasked);
     }
 
     /// All of them together.
     pub(crate) fn all(parts: Vec<Self>, rays: RayCounts) -> Self {
-        let rays_unasked = parts.iter().map(|part| part.rays_unasked).sum();
         let paths = parts.into_iter().flat_map(|part| part.paths).collect();
-        Self { paths, rays, rays_unasked }
+        Self { paths, rays }
     }
 
     /// With no map.
@@ -123,7 +117,6 @@ impl<S: Spectrum> PathRecords<S> {
             paths: self.paths.par_iter().map(replayed).collect(),
             rays: RayCounts { at_start, ..self.rays },
             rays_for_flight: (all - at_start) / flights,
-            unasked_for_flight: self.rays_unasked as f64 / flights,
         }
     }
 }
@@ -233,11 +226,7 @@ impl Replay {
         let variances =
             wanted.seen().map(|target| sums[target].0 / sums[target].1 / SAMPLES as f64);
         let flights: f64 = prices.iter().map(|price| price.flights).sum();
-        let unasked = match ending {
-            Ending::Alone => self.unasked_for_flight,
-            Ending::OnMap(_) => 0.0,
-        };
-        let rays = self.rays.at_start + flights * (self.rays_for_flight + unasked);
+        let rays = self.rays.at_start + flights * self.rays_for_flight;
         Outcome { variances: variances.collect(), rays }
     }
 }

@@ -24,7 +24,7 @@ impl ErrorTarget {
     /// Of a sample whose targets have these means.
     pub(crate) fn new(settings: &Settings, sample: &Sample, means_lx: Vec<f64>) -> Self {
         let average_lx = means_lx.iter().sum::<f64>() / means_lx.len().max(1) as f64;
-        let budget = Budget::new(settings, sample.all, sample.targets_for_each());
+        let budget = Budget::new(settings, sample);
         Self { budget, settings: settings.clone(), means_lx, average_lx }
     }
 

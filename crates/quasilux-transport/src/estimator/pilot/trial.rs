@@ -71,20 +71,15 @@ impl Sample {
 }
 
 impl Trial {
-    /// Of paths that leave to photons what is theirs.
-    pub(crate) fn of_paths_beside<S: Spectrum>(
+    /// Of paths to their ends, which may leave to photons what is theirs.
+    pub(crate) fn of_paths<S: Spectrum>(
         context: &Context<'_, S>,
         sample: &Sample,
-        partition: &Partition,
+        partition: Option<&Partition>,
         quantum: Quantum,
     ) -> Self {
-        let paths = TrialPaths {
-            targets: &sample.targets,
-            replicates: REPLICATES.len(),
-            is_recorded: false,
-            partition: Some(partition),
-            quantum,
-        };
+        let (targets, replicates, is_recorded) = (&*sample.targets, REPLICATES.len(), false);
+        let paths = TrialPaths { targets, replicates, is_recorded, partition, quantum };
         Self::without_records(context, &paths)
     }
 

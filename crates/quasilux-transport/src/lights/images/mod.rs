@@ -18,7 +18,7 @@ mod light_path_class;
 mod planes;
 mod tree;
 
-use crate::lights::{Lights, PointLikes};
+use crate::lights::{Asking, ChoiceWork, EmitterPlace, EmitterPoint, Lights, PointLikes};
 use crate::spectrum::Spectrum;
 use crate::world::vertex::Vertex;
 use crate::world::visibility::{Receiver, ShadowQueue};
@@ -53,6 +53,7 @@ pub(crate) struct SpecularImages {
 pub(crate) struct ImageSamples<S> {
     links: Links,
     light_samples: Vec<ImageSample<S>>,
+    choice: ChoiceWork,
 }
 
 /// Who asks images for light, and what stands around.
@@ -165,11 +166,11 @@ impl SpecularImages {
         &self,
         query: &ImageQuery<'_, S>,
         u: [f64; 2],
-        beside_sr: impl FnOnce(DVec3, f64) -> f64,
+        beside_sr: impl FnOnce(&EmitterPoint) -> f64,
         found: &mut ImageSamples<S>,
         shadows: &mut ShadowQueue<S>,
     ) {
-        let _ = self.emitters.sample(&self.mirrors, query, u, beside_sr, &mut found.links, shadows);
+        let _ = self.emitters.sample(&self.mirrors, query, u, beside_sr, found, shadows);
     }
 
     /// The plane that a facet mirrors in, if it is one of the mirrors.
@@ -192,9 +193,15 @@ impl SpecularImages {
         self.emitters.is_mirrored(image)
     }
 
-    /// Density in m^-2 with which a vertex asks for a point of this luminance on an image.
-    pub(crate) fn asked_m2(&self, image: u32, emitted_cd_m2: f64) -> f64 {
-        self.emitters.pdf_m2(image, emitted_cd_m2)
+    /// Density in m^-2 with which a place asks for a point of a facet, and this image of it.
+    pub(crate) fn asked_m2<S: Spectrum>(
+        &self,
+        world: &World<S>,
+        image: u32,
+        place: Asking,
+        asked: EmitterPlace,
+    ) -> f64 {
+        self.emitters.pdf_m2(world, &self.mirrors, image, place, asked)
     }
 
     /// The most that is left of light of an area light that comes over specular surfaces and that
@@ -265,7 +272,7 @@ impl SpecularImages {
         let stride = others.div_ceil(THINNED).max(1);
         self.find(query, shadows.max_bounces, Thinning { stride, phase: u }, share, found);
         let u = (u * stride as f64).fract();
-        let ImageSamples { links, light_samples } = found;
+        let ImageSamples { links, light_samples, .. } = found;
         if light_samples.len() > ALL_TESTED {
             let weights = light_samples.iter().map(|light_sample| light_sample.light.luminance());
             // Without a choice a figure is not finite: then the tally must see it.
@@ -326,7 +333,7 @@ impl SpecularImages {
         share: impl Fn(DVec3, f64) -> f64,
         found: &mut ImageSamples<S>,
     ) {
-        let ImageSamples { links, light_samples } = found;
+        let ImageSamples { links, light_samples, .. } = found;
         links.clear();
         light_samples.clear();
         for (count, number) in self.images.mirrored(SURE, stride, phase).enumerate() {

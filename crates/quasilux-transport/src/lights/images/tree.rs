@@ -11,6 +11,7 @@
 
 use super::cone::Cone;
 use super::planes::{MirrorPlane, MirrorPlanes};
+use crate::lights::Asking;
 use glam::DVec3;
 use std::ops::Range;
 
@@ -199,6 +200,21 @@ impl Images {
             *position = at;
         }
         shown
+    }
+
+    /// Where a place would have to be for the light itself to look as this image looks to it.
+    pub(crate) fn place_before_light(
+        &self,
+        mirrors: &MirrorPlanes,
+        image: u32,
+        Asking { position, side }: Asking,
+    ) -> Asking {
+        let mirrored = |point: DVec3| {
+            let planes = self.chain(image).map(|node| &mirrors.planes[node.plane as usize]);
+            planes.fold(point, |point, plane| plane.mirrored(point))
+        };
+        let origin = mirrored(DVec3::ZERO);
+        Asking { position: mirrored(position), side: side.map(|n| mirrored(n) - origin) }
     }
 
     /// An image in a mirror, and those that led to it, but for the light itself.

@@ -4,6 +4,7 @@
 use super::{Path, PathWork};
 use crate::context::Context;
 use crate::lights::images::ImageQuery;
+use crate::lights::{Asking, EmitterPlace, EmitterPoint, Emitters};
 use crate::path::sketch::{ExpectedLights, MAX_LIGHTS, PixelSketch};
 use crate::path::subpath_weights::product;
 use crate::photon::virtual_lights::Site;
@@ -77,11 +78,24 @@ impl<S: Spectrum> Path<'_, S> {
             let place = Purpose::AreaLight { surface: self.bounces_asked };
             let u = context.draw(&mut self.sampler, place, Sampler::next_2d);
             let beside_sr = self.beside_emitter_samples(context, vertex);
-            let light_sample = emitters.light_sample(&context.world, vertex, u, beside_sr);
+            let light_sample =
+                emitters.light_sample(&context.world, vertex, u, beside_sr, &mut work.choice);
+            self.asked_from = Some(Asking::at(vertex));
             let through_panes = self.asks_for_emitters_through_panes(context);
             let light_sample = light_sample.map(|it| LightSample { through_panes, ..it });
             self.ask(light_sample, vertex, work);
         }
+    }
+
+    /// Density in m^-2 with which it asked for this place on them, straight or through panes.
+    pub(super) fn asked_m2(
+        &self,
+        context: &Context<'_, S>,
+        emitters: &Emitters,
+        at: &Interaction,
+    ) -> f64 {
+        let asked = EmitterPlace { facet: at.facet, position: at.position };
+        self.asked_from.map_or(0.0, |place| emitters.pdf_m2(&context.world, place, asked))
     }
 
     /// The same of the area lights as mirrors show them.
@@ -91,35 +105,31 @@ impl<S: Spectrum> Path<'_, S> {
         vertex: &Vertex<'_, S>,
         work: &mut PathWork<S>,
     ) {
-        let asks = self.asks_for_emitter_images(context);
-        if !asks && !self.would_ask_for_emitter_images(context) {
+        if !self.asks_for_emitter_images(context) {
             return;
         }
         let place = Purpose::AreaLightImage { surface: self.bounces_asked };
         let u = context.draw(&mut self.sampler, place, Sampler::next_2d);
         let beside_sr = self.beside_emitter_samples(context, vertex);
         let query = self.image_query(context, vertex);
-        let PathWork { shadows, unasked, images, .. } = work;
-        if asks {
-            context.images.sample_emitters(&query, u, beside_sr, images, shadows);
-        } else {
-            unasked.max_bounces = shadows.max_bounces;
-            context.images.sample_emitters(&query, u, beside_sr, images, unasked);
-            self.rays_unasked += unasked.forget();
-        }
+        let PathWork { shadows, images, .. } = work;
+        context.images.sample_emitters(&query, u, beside_sr, images, shadows);
     }
 
-    /// Of a direction and of what a steradian of a light gives along it in lx, the density in sr^-1
-    /// of what finds it beside a question for the light: the direction in which the path goes on,
-    /// and light subpaths.
+    /// Of a point on a light, what weighs beside the density of asking for it, in sr^-1: by the
+    /// power heuristic the direction in which the path goes on, by the balance heuristic that and
+    /// light subpaths.
     fn beside_emitter_samples(
         &self,
         context: &Context<'_, S>,
         vertex: &Vertex<'_, S>,
-    ) -> impl Fn(DVec3, f64) -> f64 {
+    ) -> impl Fn(&EmitterPoint) -> f64 {
         let (subpath, flux_lm) = (self.subpath, context.lights.flux_lm);
-        move |direction, lx_sr| match subpath {
-            None => vertex.pdf_sr(direction),
+        move |&EmitterPoint { direction, lx_sr, pdf_sr }| match subpath {
+            None => {
+                let beside_sr = vertex.pdf_sr(direction);
+                beside_sr * (beside_sr / pdf_sr)
+            }
             Some(weights) => {
                 let to_eye = weights.towards(vertex.reverse_pdf_sr(direction));
                 vertex.partition_pdf_sr(direction) + product(lx_sr / flux_lm, to_eye)
@@ -140,9 +150,18 @@ impl<S: Spectrum> Path<'_, S> {
             let draw_2d = || context.draw(&mut self.sampler, place, Sampler::next_2d);
             let choice = lights.are_many().then(draw_2d);
             let u = context.draw(&mut self.sampler, place, Sampler::next_2d);
-            let light_sample = lights.light_sample(vertex, choice, u, &mut work.choice);
-            let light_sample = self.beside_landings(context, vertex, light_sample);
-            self.ask(light_sample, vertex, work);
+            let count = if vertex.is_sensor() { lights.asked_at_sensor() } else { 1 };
+            for number in 0..count {
+                let part = |u: f64| (f64::from(number) + u) / f64::from(count);
+                let choice = choice.map(|[first, second]| [part(first), second]);
+                let light_sample = lights.light_sample(vertex, choice, u, &mut work.choice);
+                let light_sample = self.beside_landings(context, vertex, light_sample);
+                let light_sample = light_sample.map(|it| {
+                    let light = it.light * f64::from(count).recip();
+                    LightSample { light, ..it }
+                });
+                self.ask(light_sample, vertex, work);
+            }
         }
     }
 

@@ -4,6 +4,7 @@
 use super::Path;
 use crate::bsdf::BsdfSample;
 use crate::context::Context;
+use crate::lights::EmitterPlace;
 use crate::path::end::Rest;
 use crate::spectrum::Spectrum;
 use crate::world::Interaction;
@@ -77,11 +78,6 @@ impl<S: Spectrum> Path<'_, S> {
         context.images.show_emitters() && self.is_on_no_map()
     }
 
-    /// Whether it would, if it did not note where it might have ended.
-    pub(super) fn would_ask_for_emitter_images(&self, context: &Context<'_, S>) -> bool {
-        context.images.show_emitters() && matches!(self.rest, Rest::Recorded)
-    }
-
     /// Whether it asks for the light of area lights through panes, by the same rule.
     pub(super) fn asks_for_emitters_through_panes(&self, context: &Context<'_, S>) -> bool {
         context.world.has_panes() && self.is_on_no_map()
@@ -131,13 +127,14 @@ impl<S: Spectrum> Path<'_, S> {
         let facet = context.world.facet(at);
         let pdf_m2 = match &way.passed {
             Passed::Nothing => return None,
-            Passed::Panes => context.lights.emitters.as_ref()?.pdf_m2(facet.emitted_cd_m2),
+            Passed::Panes => self.asked_m2(context, context.lights.emitters.as_ref()?, at),
             Passed::Mirrors(planes) => {
                 let images = &context.images;
+                let asked = EmitterPlace { facet: at.facet, position: at.position };
                 let light = images.emitter(facet.material)?;
                 let mut planes = planes.iter().rev();
                 let image = planes.try_fold(light, |image, plane| images.emitter_in(image, *plane));
-                images.asked_m2(image?, facet.emitted_cd_m2)
+                images.asked_m2(&context.world, image?, self.asked_from?, asked)
             }
         };
         let distance_m = way.distance_m + at.distance_m;
