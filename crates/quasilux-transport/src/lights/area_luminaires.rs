@@ -26,7 +26,7 @@ use std::f64::consts::PI;
 
 /// Of many so many are asked where a path starts: the choice there has most of the noise, and rays
 /// that start together cost little.
-const AT_SENSOR: u32 = 8;
+const AT_SENSOR: u32 = 4;
 /// Places along each coordinate from which a shape is probed for surfaces that cut it.
 const PROBES: u32 = 4;
 
