@@ -1,11 +1,11 @@
 //! cargo run --release -p quasilux-benches --bin rays -- [builds] [SCENE...]
 //!
 //! Closest hits a second on one core for incoherent rays, those of photons that bounce five times,
-//! against Embree 3 (`rtcIntersect1`) at both its qualities where `libembree3.so.3` is installed
-//! (Debian: `libembree-dev`). All take turns in rounds of 2^14 rays each; the figures are medians
-//! over the rounds, in processor time, and of the ratio within a round. Build times are of one
-//! build on all cores; with `builds` they are measured with more care, and nothing else
-//! ([`builds`]).
+//! one by one and in batches with each instruction set of the machine, against Embree 3
+//! (`rtcIntersect1`) at both its qualities where `libembree3.so.3` is installed (Debian:
+//! `libembree-dev`). All take turns in rounds of 2^14 rays each; the figures are medians over the
+//! rounds, in processor time, and of the ratio within a round. Build times are of one build on all
+//! cores; with `builds` they are measured with more care, and nothing else ([`builds`]).
 
 mod builds;
 mod photons;
@@ -13,7 +13,7 @@ mod photons;
 use photons::{RayQuery, photon_rays};
 use quasilux_benches::meshes::{self, Scene};
 use quasilux_benches::{Timed, median, processor_time, timed};
-use quasilux_bvh::{RayQuery as BvhShot, TriangleBvh};
+use quasilux_bvh::{RayQuery as BvhShot, SimdLevel, TriangleBvh};
 use quasilux_foreign::{Embree, Mesh, Quality, RayHit};
 use std::hint::black_box;
 
@@ -33,7 +33,7 @@ fn main() {
     if only_builds {
         builds::headings();
     } else {
-        println!("{:<16}{:<26}{:>10}{:>12}{:>10}", "", "", "build, s", "Mrays/s", "ratio");
+        println!("{:<16}{:<28}{:>10}{:>12}{:>10}", "", "", "build, s", "Mrays/s", "ratio");
     }
     let measure = |scene: Scene| {
         if only_builds {
@@ -64,6 +64,14 @@ fn main() {
 fn measure(scene: Scene, embree: Option<&Embree>) {
     let corners = scene.corners.clone();
     let Timed { seconds: own_build, result: own } = timed(|| TriangleBvh::build(corners));
+    let kernels: Vec<(String, TriangleBvh)> = SimdLevel::all()
+        .into_iter()
+        .filter(|simd| *simd != SimdLevel::Portable)
+        .map(|simd| {
+            let bvh = TriangleBvh::build_for(scene.corners.clone(), simd);
+            (format!("quasilux, {simd:?}, batches"), bvh)
+        })
+        .collect();
     let rays = photon_rays(&scene, &own, RAYS);
     let name = format!("quasilux, {} triangles", scene.corners.len());
 
@@ -91,24 +99,27 @@ fn measure(scene: Scene, embree: Option<&Embree>) {
         .map(|shot| BvhShot { ray: shot.ray, excluded: [shot.from, BvhShot::NONE] })
         .collect();
     let mut hits = vec![None; ROUND];
-    let mut seconds = vec![Vec::new(); 2 + others.len()];
+    let mut seconds = vec![Vec::new(); 1 + kernels.len() + others.len()];
     for round in 0..TURNS * (RAYS / ROUND) {
         let part = round * ROUND % RAYS..round * ROUND % RAYS + ROUND;
         seconds[0].push(processor_time(|| shoot(&own, &rays[part.clone()])));
-        seconds[1].push(processor_time(|| {
-            own.closest_hit_batch(&batch[part.clone()], &mut hits);
-            black_box(&hits);
-        }));
-        for ((_, _, mesh), seconds) in others.iter().zip(&mut seconds[2..]) {
+        for ((_, kernel), seconds) in kernels.iter().zip(&mut seconds[1..]) {
+            seconds.push(processor_time(|| {
+                kernel.closest_hit_batch(&batch[part.clone()], &mut hits);
+                black_box(&hits);
+            }));
+        }
+        for ((_, _, mesh), seconds) in others.iter().zip(&mut seconds[1 + kernels.len()..]) {
             seconds.push(processor_time(|| shoot_embree(mesh, &shots[part.clone()])));
         }
     }
-    let builds = [(name.as_str(), own_build), ("quasilux, many at once", own_build)];
-    let builds = builds.into_iter().chain(others.iter().map(|(name, s, _)| (*name, *s)));
+    let kernels = kernels.iter().map(|(name, _)| (name.as_str(), own_build));
+    let builds = [(name.as_str(), own_build)].into_iter().chain(kernels);
+    let builds = builds.chain(others.iter().map(|(name, s, _)| (*name, *s)));
     for ((name, build), own) in builds.zip(&seconds) {
         let rate = median(own.iter().map(|s| ROUND as f64 / s / 1e6));
         let ratio = median(own.iter().zip(&seconds[0]).map(|(s, first)| s / first));
-        println!("{:<16}{name:<26}{build:>10.2}{rate:>12.2}{ratio:>10.3}", scene.name);
+        println!("{:<16}{name:<28}{build:>10.2}{rate:>12.2}{ratio:>10.3}", scene.name);
     }
 }
 

@@ -16,8 +16,8 @@ pub enum SimdLevel {
 }
 
 impl SimdLevel {
-    /// The fastest one on this machine, as far as that is known: [`Self::Avx512`] was never timed,
-    /// and Embree is slower with it than with AVX2 on rays like ours.
+    /// The fastest one on this machine: [`Self::Avx512`] was as fast as [`Self::Avx2`] on an AMD
+    /// EPYC that has both (0.95 to 1.08 times, `docs/speed.md`).
     #[must_use]
     pub fn fastest() -> Self {
         #[cfg(target_arch = "x86_64")]
