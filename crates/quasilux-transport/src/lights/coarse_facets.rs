@@ -9,7 +9,7 @@ use crate::world::Facet;
 use glam::{DVec3, Vec3};
 use std::f32::consts::TAU;
 
-/// What is nearer to dark than this part of the scene, or of a turn, is not called dark.
+/// What is nearer to dark than this part of the scene is not called dark. No cosine counts less.
 const ROUNDING: f32 = 1e-5;
 /// No luminance, over that of the brightest, and no solid angle in sr counts less, so that no
 /// product of them becomes 0.
@@ -31,6 +31,7 @@ pub(super) struct CoarseFacets {
 struct Block {
     corners: [[Lanes; 3]; 3],
     n: [Lanes; 3],
+    twice_areas_m2: Lanes,
     /// Over that of the brightest.
     luminances: Lanes,
 }
@@ -56,6 +57,7 @@ impl CoarseFacets {
                 set(own, lane, corner - origin);
             }
             set(&mut block.n, lane, facet.front_normal);
+            block.twice_areas_m2[lane] = 2.0 * facet.area_m2() as f32;
             let luminance = facet.emitted_cd_m2 / brightest_cd_m2;
             block.luminances[lane] = (luminance as f32).max(FAINTEST);
         }
@@ -80,8 +82,12 @@ fn set(lanes: &mut [Lanes; 3], lane: usize, value: DVec3) {
 }
 
 impl Block {
-    const DARK: Self =
-        Self { corners: [[[0.0; LANES]; 3]; 3], n: [[0.0; LANES]; 3], luminances: [0.0; LANES] };
+    const DARK: Self = Self {
+        corners: [[[0.0; LANES]; 3]; 3],
+        n: [[0.0; LANES]; 3],
+        twice_areas_m2: [0.0; LANES],
+        luminances: [0.0; LANES],
+    };
 
     fn weights(&self, position: Vec3, side: Option<Vec3>, rounding_m: f32) -> Lanes {
         let n = side.unwrap_or(Vec3::ZERO);
@@ -95,18 +101,19 @@ impl Block {
             };
             let (a, b, c) = (way(ax, ay, az), way(bx, by, bz), way(cx, cy, cz));
             let height_m = -dot([nx[lane], ny[lane], nz[lane]], a);
-            let (a, b, c) = (unit(a), unit(b), unit(c));
-            let spanned = dot(a, cross(b, c)).abs();
+            let n = [n.x, n.y, n.z];
+            let highest_m = larger(larger(dot(n, a), dot(n, b)), dot(n, c));
+            let (per_a, per_b, per_c) = (per_length(a), per_length(b), per_length(c));
+            let (a, b, c) = (scaled(a, per_a), scaled(b, per_b), scaled(c, per_c));
+            let spanned = self.twice_areas_m2[lane] * height_m.abs() * (per_a * per_b * per_c);
             let denominator = 1.0 + dot(a, b) + dot(b, c) + dot(c, a);
             let solid_angle_sr = about_solid_angle_sr(spanned, denominator);
-            let n = [n.x, n.y, n.z];
             let (a, b, c) = (dot(n, a), dot(n, b), dot(n, c));
-            let highest = larger(larger(a, b), c);
             let cos = (larger(a, 0.0) + larger(b, 0.0) + larger(c, 0.0)) * (1.0 / 3.0);
             let lit = larger(solid_angle_sr, FAINTEST) * larger(cos, least_cos);
             let weight = self.luminances[lane] * lit;
             let lit = if height_m < -rounding_m { 0.0 } else { weight };
-            weights[lane] = if highest < -ROUNDING { 0.0 } else { lit };
+            weights[lane] = if highest_m < -rounding_m { 0.0 } else { lit };
         }
         weights
     }
@@ -124,19 +131,18 @@ fn about_solid_angle_sr(y: f32, x: f32) -> f32 {
 }
 
 #[inline(always)]
-fn unit([x, y, z]: [f32; 3]) -> [f32; 3] {
-    let scale = 1.0 / larger(x * x + y * y + z * z, f32::MIN_POSITIVE).sqrt();
+fn per_length([x, y, z]: [f32; 3]) -> f32 {
+    1.0 / larger(x * x + y * y + z * z, f32::MIN_POSITIVE).sqrt()
+}
+
+#[inline(always)]
+fn scaled([x, y, z]: [f32; 3], scale: f32) -> [f32; 3] {
     [x * scale, y * scale, z * scale]
 }
 
 #[inline(always)]
 fn dot([ax, ay, az]: [f32; 3], [bx, by, bz]: [f32; 3]) -> f32 {
     ax * bx + ay * by + az * bz
-}
-
-#[inline(always)]
-fn cross([ax, ay, az]: [f32; 3], [bx, by, bz]: [f32; 3]) -> [f32; 3] {
-    [ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx]
 }
 
 #[inline(always)]

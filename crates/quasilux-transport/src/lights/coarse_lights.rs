@@ -306,7 +306,7 @@ mod tests {
             let position = 9.0 * DVec3::new(number(i, 0.569_84), number(i, 0.324_718), 0.1);
             let n = DVec3::from_array(sample_uniform_sphere([number(i, 0.3) + 0.5, 0.1]));
             let numbers: [usize; LANES] = array::from_fn(|lane| (i as usize + 7 * lane) % 64);
-            let weights = coarse.weights(&numbers, Asking { position, side: Some(n) });
+            let weights = coarse.weights(&numbers, Asking { position, side: Some(n), own: None });
             for (weight, number) in weights.iter().zip(numbers) {
                 let weight = &(weight * coarse.mean_cd);
                 let Light::Point(point) = &lights[number] else { unreachable!() };
@@ -317,7 +317,7 @@ mod tests {
                 assert!(*weight <= lx.max(0.0) * 1.001 + lx_of_cos(2e-4), "{weight} for {lx}");
             }
             let Light::Point(point) = &lights[i as usize % 64] else { unreachable!() };
-            let at_light = Asking { position: point.position, side: None };
+            let at_light = Asking { position: point.position, side: None, own: None };
             assert!(coarse.weights(&[i as usize % 64], at_light)[0].is_finite());
         }
     }

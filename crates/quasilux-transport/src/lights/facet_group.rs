@@ -21,7 +21,8 @@ pub(super) struct FacetGroup {
     by_flux: Discrete,
     /// By what they give to a place; without it by flux.
     choice: Option<LightChoice>,
-    coarse: CoarseFacets,
+    /// Where all are weighed.
+    coarse: Option<CoarseFacets>,
 }
 
 /// A place on an emitting facet.
@@ -54,7 +55,8 @@ impl FacetGroup {
         let is_table_possible = facets.len() < MIN_MANY || bounds.is_some();
         let choice = is_table_possible.then(|| LightChoice::new(facets.len(), bounds));
         let all = facets.iter().map(|facet| &world.facets[*facet as usize]);
-        let coarse = CoarseFacets::new(all, world.bounds());
+        let weighs_all = choice.as_ref().is_some_and(|choice| !choice.has_tables());
+        let coarse = weighs_all.then(|| CoarseFacets::new(all, world.bounds()));
         Some(Self { by_flux: Discrete::new(&fluxes)?, choice, coarse, facets })
     }
 
@@ -93,7 +95,7 @@ impl FacetGroup {
                 place,
                 u[0],
                 |light, around| self.weight_around(world, light, around),
-                self.coarse.weights(place),
+                self.weights(place),
                 work,
             )?,
             None => {
@@ -102,6 +104,9 @@ impl FacetGroup {
             }
         };
         let facet = self.facets[chosen.light];
+        if place.own == Some(facet) {
+            return None;
+        }
         let seen = seen(&world.facets[facet as usize], place)?;
         let position = seen.sample_point([chosen.u_remapped, u[1]]);
         let pdf_m2 = chosen.pdf * seen.pdf_m2(position);
@@ -116,6 +121,9 @@ impl FacetGroup {
         asked: EmitterPlace,
     ) -> f64 {
         let Ok(light) = self.facets.binary_search(&asked.facet) else { return 0.0 };
+        if place.own == Some(asked.facet) {
+            return 0.0;
+        }
         let seen = seen(&world.facets[asked.facet as usize], place);
         let Some(seen) = seen else { return 0.0 };
         let probability = match &self.choice {
@@ -123,11 +131,18 @@ impl FacetGroup {
                 light,
                 place,
                 |light, around| self.weight_around(world, light, around),
-                self.coarse.weights(place),
+                self.weights(place),
             ),
             None => self.by_flux.pdf(light),
         };
         probability * seen.pdf_m2(asked.position)
+    }
+
+    /// About what each gives to a place.
+    fn weights(&self, place: Asking) -> impl Iterator<Item = f64> {
+        let all = self.coarse.iter().flat_map(move |coarse| coarse.weights(place));
+        let others = move |(facet, weight)| if place.own == Some(facet) { 0.0 } else { weight };
+        self.facets.iter().copied().zip(all).map(others)
     }
 
     /// About what a facet gives in some surroundings, in lx.

@@ -1,5 +1,6 @@
 //! Lights: emission of photons, and direct light at surfaces. Area lights are sampled in
-//! `emitting_facets`, luminaires with a luminous area in `area_luminaires`, lights without extent
+//! `emitting_facets`: `facet_group` chooses a facet and a point on it, by `coarse_facets` and
+//! `seen_triangle`; luminaires with a luminous area in `area_luminaires`, lights without extent
 //! in `pointlike`, what mirrors show of both kinds in `images`; `selection` chooses one of several,
 //! by what `coarse_lights` says.
 

@@ -15,8 +15,8 @@ use glam::DVec3;
 use quasilux_sampling::warp::sample_triangle;
 use std::array;
 
-/// A triangle that is smaller than this part of its distance gets points uniform over its area: its
-/// light varies by an eighth at most between them.
+/// A triangle that reaches less far from its centre than this part of its distance gets points
+/// uniform over its area: distances vary by a sixteenth to either side, light by an eighth.
 const MIN_SIZE: f64 = 1.0 / 16.0;
 /// So does one of a smaller solid angle in sr, a sliver or one seen from its side.
 const MIN_SOLID_ANGLE_SR: f64 = 1e-6;

@@ -53,6 +53,8 @@ pub(super) struct LightChoice {
 pub(crate) struct Asking {
     pub(crate) position: DVec3,
     pub(crate) side: Option<DVec3>,
+    /// The facet that it lies on: it sends itself no light.
+    pub(crate) own: Option<u32>,
 }
 
 /// A light that was chosen.
@@ -89,7 +91,7 @@ pub(super) struct Surroundings {
 
 impl Asking {
     pub(crate) fn at<S: Spectrum>(vertex: &Vertex<'_, S>) -> Self {
-        Self { position: vertex.position(), side: vertex.only_side() }
+        Self { position: vertex.place(), side: vertex.only_side(), own: vertex.facet() }
     }
 }
 
@@ -98,6 +100,11 @@ impl LightChoice {
     pub(super) fn new(lights: usize, bounds: Option<[DVec3; 2]>) -> Self {
         let bounds = bounds.filter(|_| lights >= MIN_MANY);
         Self { lights, cubes: bounds.and_then(|bounds| Cubes::new(lights, bounds)) }
+    }
+
+    /// Whether they are so many that tables choose among them.
+    pub(super) fn has_tables(&self) -> bool {
+        self.cubes.is_some()
     }
 
     /// Coordinates that it takes: a single light is no choice.
@@ -266,7 +273,7 @@ impl Cubes {
     /// The table for a place, made of the weights of so many lights in its surroundings.
     fn table(
         &self,
-        Asking { position, side }: Asking,
+        Asking { position, side, .. }: Asking,
         lights: usize,
         weight: impl Fn(usize, &Surroundings) -> f64,
     ) -> Option<&Discrete> {
@@ -335,7 +342,7 @@ mod tests {
     fn place(index: u64) -> Asking {
         let position = DVec3::from_array(number(index)) * BOX[1] * DVec3::new(1.0, 1.0, 0.7);
         let side = [Some(DVec3::Z), Some(DVec3::new(0.6, 0.0, 0.8)), None][index as usize % 3];
-        Asking { position, side }
+        Asking { position, side, own: None }
     }
 
     /// Spots below the ceiling, of 14 degrees and 3 degrees.
@@ -360,7 +367,7 @@ mod tests {
             1000.0 * libm::exp(self.narrowness * (self.aim.dot(direction) - 1.0))
         }
 
-        fn lx(&self, Asking { position, side }: Asking) -> f64 {
+        fn lx(&self, Asking { position, side, .. }: Asking) -> f64 {
             let way = position - self.position;
             let direction = way.normalize();
             let cosine = side.map_or(1.0, |n| -n.dot(direction)).max(0.0);

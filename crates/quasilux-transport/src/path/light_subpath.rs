@@ -219,8 +219,8 @@ impl<S: Spectrum> LightSubpath<'_, S> {
             self.image = Some(image);
             return;
         }
-        let side = (!bsdf.transmits()).then_some(at.n);
-        let place = Asking { position: at.position, side };
+        let surface = Surface::new(world, at, self.start.direction);
+        let place = Asking::at(&Vertex::on(world, at, &surface, S::white()));
         let pdf_m2 = if images.is_mirrored_emitter(image.number) {
             images.asked_m2(world, image.number, place, image.left_from)
         } else if let Some(emitters) = &lights.emitters {

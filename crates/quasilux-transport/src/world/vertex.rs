@@ -67,6 +67,17 @@ impl<'w, S: Spectrum> Vertex<'w, S> {
         self.from.position()
     }
 
+    /// The place itself, the same from both sides of a surface that lets light through.
+    pub(crate) fn place(&self) -> DVec3 {
+        let behind = self.surface.and_then(|surface| surface.behind);
+        behind.map_or(self.position(), |behind| 0.5 * (self.position() + behind.position()))
+    }
+
+    /// The facet that it lies on; `None` for a sensor point.
+    pub(crate) fn facet(&self) -> Option<u32> {
+        self.from.facet()
+    }
+
     /// The cosine that makes illuminance of what arrives from `direction`; not above 0 where
     /// nothing of it counts.
     pub(crate) fn cos(&self, direction: DVec3) -> f64 {

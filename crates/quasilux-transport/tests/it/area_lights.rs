@@ -1,10 +1,15 @@
 //! Area lights all around sensor points, all else black: the sum of closed forms for polygons. Few
 //! facets are weighed, many drawn by tables; some are very near, some partly behind.
 
-use crate::images::empty;
+use crate::images::{add_panel, empty};
 use crate::mirrored_area_lights::{Dice, Panel, add_light, assert_lx, polygon_lx};
-use crate::scenes::points;
+use crate::scenes::{diffuse, level_grid, points, room};
 use glam::DVec3;
+use quasilux_scene::bsdf::Translucent;
+use quasilux_scene::light::AreaLight;
+use quasilux_scene::{Bsdf, Light, Rgb};
+use quasilux_transport::trial::bidirectional_paths;
+use quasilux_transport::{EstimatorKind, Settings, simulate};
 
 /// The part of a polygon that is before the side `n` of a place.
 fn before(corners: &[DVec3], place: DVec3, n: DVec3) -> Vec<DVec3> {
@@ -74,5 +79,44 @@ fn light_of_panels_adds_up() {
             .collect();
         scene.sensors.push(points("probes", &places));
         assert_lx(&scene, seed, &expected_lx);
+    }
+}
+
+/// Opal panels that shine from one side and let light through: what lies on one side of a panel is
+/// before it, however near, but a panel does not light itself. One is weighed, nine are drawn by
+/// tables; against photons, which ask nobody.
+#[test]
+fn opal_panels_do_not_light_themselves() {
+    for (seed, count) in [(0, 1), (1, 9)] {
+        let mut scene = room(DVec3::new(4.0, 3.0, 2.5), diffuse(0.5));
+        for number in 0..count {
+            let corner = DVec3::new(0.3 + 0.4 * f64::from(number), 0.5, 1.6);
+            let (u, v) = (DVec3::new(0.0, 2.0, 0.2), DVec3::new(0.35, 0.0, 0.1));
+            let share = Rgb::grey(0.45);
+            let sheet = Translucent { reflectance: share, transmittance: share };
+            let first = scene.mesh.triangles.len() as u32;
+            add_panel(&mut scene, corner, u, v, Bsdf::Translucent(sheet));
+            scene.lights.push(Light::Area(AreaLight {
+                material: scene.mesh.material_of[first as usize],
+                triangles: vec![first, first + 1],
+                area_m2: u.cross(v).length(),
+                luminance_cd_m2: 1000.0,
+            }));
+        }
+        scene.sensors.push(level_grid(DVec3::new(0.5, 0.5, 0.7), [3.0, 2.0], [2, 2]));
+        scene.sensors.push(level_grid(DVec3::new(0.5, 0.5, 2.2), [3.0, 2.0], [2, 2]));
+        let settings = Settings { rel_tol: 0.01, seed, ..Settings::default() };
+        let by = |estimator| simulate(&scene, &Settings { estimator, ..settings.clone() }, &mut ());
+        let photons = by(EstimatorKind::Photon);
+        let bidirectional = bidirectional_paths(&scene, &settings).expect("nothing is hidden");
+        for (what, other) in [("paths", by(EstimatorKind::Path)), ("both ways", bidirectional)] {
+            for sensor in 0..2 {
+                let pairs = photons.point_intervals(sensor);
+                for (a, b) in pairs.iter().zip(other.point_intervals(sensor)) {
+                    let allowed = 1.5 * (a.half_width.unwrap() + b.half_width.unwrap());
+                    assert!((a.value - b.value).abs() < allowed, "{count}, {what}: {a:?} {b:?}");
+                }
+            }
+        }
     }
 }

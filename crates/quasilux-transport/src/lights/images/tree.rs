@@ -207,14 +207,16 @@ impl Images {
         &self,
         mirrors: &MirrorPlanes,
         image: u32,
-        Asking { position, side }: Asking,
+        Asking { position, side, .. }: Asking,
     ) -> Asking {
         let mirrored = |point: DVec3| {
             let planes = self.chain(image).map(|node| &mirrors.planes[node.plane as usize]);
             planes.fold(point, |point, plane| plane.mirrored(point))
         };
         let origin = mirrored(DVec3::ZERO);
-        Asking { position: mirrored(position), side: side.map(|n| mirrored(n) - origin) }
+        // What lies there may see itself.
+        let side = side.map(|n| mirrored(n) - origin);
+        Asking { position: mirrored(position), side, own: None }
     }
 
     /// An image in a mirror, and those that led to it, but for the light itself.

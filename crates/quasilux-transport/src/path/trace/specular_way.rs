@@ -75,16 +75,24 @@ impl<S: Spectrum> Path<'_, S> {
     /// Whether it asks for images of area lights: not where it ends on a map or might, which holds
     /// their light.
     pub(super) fn asks_for_emitter_images(&self, context: &Context<'_, S>) -> bool {
-        context.images.show_emitters() && self.is_on_no_map()
+        context.images.show_emitters() && self.is_on_no_map(context)
     }
 
     /// Whether it asks for the light of area lights through panes, by the same rule.
     pub(super) fn asks_for_emitters_through_panes(&self, context: &Context<'_, S>) -> bool {
-        context.world.has_panes() && self.is_on_no_map()
+        context.world.has_panes() && self.is_on_no_map(context)
     }
 
-    fn is_on_no_map(&self) -> bool {
-        self.bounces_asked == 0 || matches!(self.rest, Rest::Path)
+    fn is_on_no_map(&self, context: &Context<'_, S>) -> bool {
+        match self.rest {
+            Rest::Path => true,
+            // With a limit, only first surfaces are ends.
+            Rest::Map(_) => {
+                self.bounces_asked != 1
+                    && (self.bounces_asked == 0 || context.max_bounces.is_some())
+            }
+            Rest::Recorded | Rest::Frozen(_) => self.bounces_asked == 0,
+        }
     }
 
     /// Where a specular way begins, if what is behind specular surfaces was asked for there.
