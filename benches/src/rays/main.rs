@@ -64,14 +64,7 @@ fn main() {
 fn measure(scene: Scene, embree: Option<&Embree>) {
     let corners = scene.corners.clone();
     let Timed { seconds: own_build, result: own } = timed(|| TriangleBvh::build(corners));
-    let kernels: Vec<(String, TriangleBvh)> = SimdLevel::all()
-        .into_iter()
-        .filter(|simd| *simd != SimdLevel::Portable)
-        .map(|simd| {
-            let bvh = TriangleBvh::build_for(scene.corners.clone(), simd);
-            (format!("quasilux, {simd:?}, batches"), bvh)
-        })
-        .collect();
+    let kernels = kernels(&scene);
     let rays = photon_rays(&scene, &own, RAYS);
     let name = format!("quasilux, {} triangles", scene.corners.len());
 
@@ -103,9 +96,9 @@ fn measure(scene: Scene, embree: Option<&Embree>) {
     for round in 0..TURNS * (RAYS / ROUND) {
         let part = round * ROUND % RAYS..round * ROUND % RAYS + ROUND;
         seconds[0].push(processor_time(|| shoot(&own, &rays[part.clone()])));
-        for ((_, kernel), seconds) in kernels.iter().zip(&mut seconds[1..]) {
+        for (Contestant { bvh, .. }, seconds) in kernels.iter().zip(&mut seconds[1..]) {
             seconds.push(processor_time(|| {
-                kernel.closest_hit_batch(&batch[part.clone()], &mut hits);
+                bvh.closest_hit_batch(&batch[part.clone()], &mut hits);
                 black_box(&hits);
             }));
         }
@@ -113,7 +106,7 @@ fn measure(scene: Scene, embree: Option<&Embree>) {
             seconds.push(processor_time(|| shoot_embree(mesh, &shots[part.clone()])));
         }
     }
-    let kernels = kernels.iter().map(|(name, _)| (name.as_str(), own_build));
+    let kernels = kernels.iter().map(|kernel| (kernel.name.as_str(), own_build));
     let builds = [(name.as_str(), own_build)].into_iter().chain(kernels);
     let builds = builds.chain(others.iter().map(|(name, s, _)| (*name, *s)));
     for ((name, build), own) in builds.zip(&seconds) {
@@ -121,6 +114,22 @@ fn measure(scene: Scene, embree: Option<&Embree>) {
         let ratio = median(own.iter().zip(&seconds[0]).map(|(s, first)| s / first));
         println!("{:<16}{name:<28}{build:>10.2}{rate:>12.2}{ratio:>10.3}", scene.name);
     }
+}
+
+/// A hierarchy of ours for one instruction set.
+struct Contestant {
+    name: String,
+    bvh: TriangleBvh,
+}
+
+/// One for each instruction set of the machine.
+fn kernels(scene: &Scene) -> Vec<Contestant> {
+    let all = SimdLevel::all().into_iter().filter(|simd| *simd != SimdLevel::Portable);
+    let build = |simd: SimdLevel| {
+        let bvh = TriangleBvh::build_for(scene.corners.clone(), simd);
+        Contestant { name: format!("quasilux, {simd:?}, batches"), bvh }
+    };
+    all.map(build).collect()
 }
 
 fn shoot(bvh: &TriangleBvh, shots: &[RayQuery]) {
