@@ -87,11 +87,8 @@ impl<S: Spectrum> Path<'_, S> {
         match self.rest {
             Rest::Path => true,
             // With a limit, only first surfaces are ends.
-            Rest::Map(_) => {
-                self.bounces_asked != 1
-                    && (self.bounces_asked == 0 || context.max_bounces.is_some())
-            }
-            Rest::Recorded | Rest::Frozen(_) => self.bounces_asked == 0,
+            Rest::Map(_) if context.max_bounces.is_some() => self.bounces_asked != 1,
+            Rest::Map(_) | Rest::Recorded | Rest::Frozen(_) => self.bounces_asked == 0,
         }
     }
 
