@@ -5,7 +5,8 @@
 //! nor files: progress and cancellation go through one [`Observer`].
 //!
 //! A run can be kept and gone on with ([`resume`]), or cut into parts and put together
-//! ([`trace_part`], [`merge`]), to the same bits.
+//! ([`trace_part`], [`merge`]), or have other processes trace most of it ([`simulate_with_workers`],
+//! [`trace_blocks`]), to the same bits.
 //!
 //! The folders depend one way, each on those before it:
 //!
@@ -49,10 +50,11 @@ pub use codec::StateError;
 pub use explain::{Explanation, explain};
 pub use prepared::PreparedScene;
 pub use quasilux_sampling::DimensionHistogram;
+pub use run::blocks::{BlockTracer, trace_blocks};
 pub use run::check::{CheckError, check};
 pub use run::memory::MemoryNeed;
 pub use run::parts::{MergeError, decide, merge, trace_part};
-pub use run::simulate::{is_over, resume, simulate};
+pub use run::simulate::{is_over, resume, simulate, simulate_with_workers};
 pub use run::trial;
 pub use settings::{EstimatorKind, Reconstruction, Settings, Switch, ToleranceOn};
 pub use stats::convergence;
@@ -63,6 +65,7 @@ pub use stats::estimates::{
 pub use stats::interval::{self, Interval};
 pub use stats::observer::{self, Control, Observer, PictureProgress, Progress, Snapshot};
 pub use stats::picture::{CameraEstimates, Pixel};
+pub use stats::workers::Workers;
 
 /// Tests the example of the README.
 #[cfg(doctest)]

@@ -1,6 +1,7 @@
 //! Estimators of sensor values, and the selection between them by pilots.
 
 pub(crate) mod auto;
+pub(crate) mod block;
 pub(crate) mod connection;
 pub(crate) mod control_variate;
 pub(crate) mod exact;
@@ -13,6 +14,7 @@ pub(crate) mod witness;
 use crate::codec::{Reader, StateError, Writer};
 use crate::context::Context;
 use crate::estimator::auto::AutoEstimator;
+use crate::estimator::block::BlockFrame;
 use crate::estimator::path_estimator::PathEstimator;
 use crate::estimator::photon_estimator::PhotonEstimator;
 use crate::settings::{EstimatorKind, Settings};
@@ -57,6 +59,11 @@ pub(crate) trait Estimator {
 
     /// Adds that.
     fn merge_part(&mut self, from: &mut Reader<'_>) -> Result<(), StateError>;
+
+    /// Traces a block of the work of another process, for what that adds to its sums; those of
+    /// its own mean nothing from here on.
+    fn trace_block(&mut self, frame: &BlockFrame, block: Range<u64>)
+    -> Result<Vec<u8>, StateError>;
 
     /// Declares the sums complete up to `samples`.
     fn complete_at(&mut self, samples: u64);

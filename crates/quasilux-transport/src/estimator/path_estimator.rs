@@ -2,6 +2,7 @@
 //! vertex connections.
 
 mod advance;
+mod blocks;
 mod progress;
 mod resolved;
 mod snapshot;
@@ -11,6 +12,7 @@ use crate::codec::{Reader, StateError, Writer};
 use crate::context::{Context, Stream};
 use crate::cutoff;
 use crate::estimator::Estimator;
+use crate::estimator::block::{BlockFrame, PathRole};
 use crate::estimator::connection::LightVertexConnections;
 use crate::estimator::exact::{Exact, exact};
 use crate::estimator::pilot::Request;
@@ -51,6 +53,7 @@ pub(crate) struct PathEstimator<'a, S> {
     light_vertices: Option<LightVertexConnections>,
     /// Whether each path is an eye subpath that is connected to a light subpath of its own.
     is_bidirectional: bool,
+    role: PathRole,
     replicates: u32,
     quantum: Quantum,
     /// Of target t in replicate r at `t * replicates + r`.
@@ -61,6 +64,9 @@ pub(crate) struct PathEstimator<'a, S> {
     first: u64,
     /// Indices of the last checkpoint.
     samples: u64,
+    /// Indices that photons which serve all paths are traced for, where they are traced for
+    /// blocks of another process.
+    served: u64,
     /// Targets that get more paths, in order.
     growing: Vec<usize>,
     /// The index that each target begins with; `None` before it does.
@@ -162,6 +168,7 @@ impl<'a, S: Spectrum> PathEstimator<'a, S> {
             end,
             light_vertices,
             is_bidirectional,
+            role: PathRole::Selected,
             replicates,
             last_lx: vec![None; targets.len()],
             quantum,
@@ -173,6 +180,7 @@ impl<'a, S: Spectrum> PathEstimator<'a, S> {
             targets,
             first: 0,
             samples: 0,
+            served: 0,
             done: 0,
             prepared: Costs { work, photons },
             shared: Costs::default(),
@@ -355,15 +363,6 @@ impl<S: Spectrum> PathEstimator<'_, S> {
             + self.sums.iter().map(PathSums::invalid).sum::<u64>()
     }
 
-    /// Photons and paths from here to so many indices.
-    fn work_up_to(&self, samples: u64) -> u64 {
-        let joined = self.light_vertices.as_ref().map_or(0, |it| it.work_of_an_index());
-        let paths = (self.growing.len() as u64).saturating_mul(u64::from(self.replicates));
-        let photons = self.end.photons_of_an_index(self.replicates);
-        let each = paths.saturating_add(photons).saturating_add(joined);
-        each.saturating_mul(samples.saturating_sub(self.samples))
-    }
-
     /// All that was traced.
     fn costs(&self) -> Costs {
         let Self { prepared, shared, contribution, .. } = self;
@@ -456,6 +455,14 @@ impl<S: Spectrum> Estimator for PathEstimator<'_, S> {
 
     fn merge_part(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
         self.take_in_own(from)
+    }
+
+    fn trace_block(
+        &mut self,
+        frame: &BlockFrame,
+        block: Range<u64>,
+    ) -> Result<Vec<u8>, StateError> {
+        self.trace_block(frame, block)
     }
 
     fn complete_at(&mut self, samples: u64) {

@@ -14,6 +14,7 @@ pub(crate) use receivers::Receivers;
 use crate::codec::{Reader, StateError, Stored, Writer, digest};
 use crate::context::{Context, Stream};
 use crate::estimator::Estimator;
+use crate::estimator::block::BlockFrame;
 use crate::importance::{Plan, WeightWindows};
 use crate::photon::batch::{PhotonBatch, trace_photons_with_snapshots};
 use crate::photon::counts::PhotonCounts;
@@ -28,7 +29,7 @@ use crate::stats::estimates::{Dimensions, Estimates, SensorEstimates, TermEstima
 use crate::stats::observer::Snapshot;
 use crate::stats::tally::checked_quanta;
 use crate::stats::targets::{by_sensor, snapshot};
-use crate::stats::watch::Watch;
+use crate::stats::watch::{BlockCounts, Watch};
 use crate::world::Interaction;
 use crate::world::flight::Flight;
 use quasilux_scene::Scene;
@@ -165,6 +166,19 @@ impl<S: Spectrum> PhotonEstimator<'_, S> {
 
 impl<S: Spectrum> Estimator for PhotonEstimator<'_, S> {
     fn advance(&mut self, samples: u64, watch: &mut Watch<'_>) -> bool {
+        let (indices, each) = (self.samples..samples, self.counters.len() as u64);
+        if let Some(blocks) = watch.blocks(|| BlockFrame::CountedPhotons, indices, each) {
+            let is_done = watch.distribute(&blocks, &mut |from| {
+                let mut photons = PhotonCounts::default();
+                photons.merge_from(from)?;
+                self.counters.as_mut_slice().merge_from(from)?;
+                let (begun, rays) = (photons.begun, photons.rays);
+                self.photons += photons;
+                Ok(BlockCounts { photons: begun, paths: 0, rays })
+            });
+            self.samples = samples;
+            return is_done;
+        }
         for piece in watch.pieces(self.samples..samples, self.counters.len() as u64) {
             let end = piece.end;
             let Some(counts) = self.count(PhotonOrder::CoherentWaves, piece, watch) else {
@@ -248,6 +262,25 @@ impl<S: Spectrum> Estimator for PhotonEstimator<'_, S> {
         self.counters.as_mut_slice().merge_from(from)
     }
 
+    fn trace_block(
+        &mut self,
+        frame: &BlockFrame,
+        block: Range<u64>,
+    ) -> Result<Vec<u8>, StateError> {
+        let BlockFrame::CountedPhotons = frame else {
+            return Err(StateError::Unfit("the kind of a block"));
+        };
+        self.counters.iter_mut().for_each(Counters::clear);
+        self.photons = PhotonCounts::default();
+        let mut nobody = ();
+        if !self.trace_part(block, 0, &mut Watch::new(&mut nobody)) {
+            return Err(StateError::Unfit("the range of a block"));
+        }
+        let mut out = Writer::default();
+        self.put_part(&mut out);
+        Ok(out.finish())
+    }
+
     fn complete_at(&mut self, samples: u64) {
         self.samples = samples;
     }
@@ -262,6 +295,11 @@ impl Counters {
         let zeros = || (0..counters).map(|_| AtomicU64::new(0)).collect();
         let by_bounces = (0..terms).map(|_| zeros()).collect();
         Self { all: zeros(), by_bounces, quanta_per_photon }
+    }
+
+    fn clear(&mut self) {
+        let counters = self.all.iter_mut().chain(self.by_bounces.iter_mut().flatten());
+        counters.for_each(|counter| *counter.get_mut() = 0);
     }
 
     fn all(&self, counter: usize) -> u64 {

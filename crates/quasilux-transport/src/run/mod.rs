@@ -1,6 +1,7 @@
 //! A run from its start to its result: the loop over checkpoints ([`simulate`]), how far it has
 //! come ([`course`]), parts of a run on several machines ([`parts`]), pictures ([`pictures`]).
 
+pub(crate) mod blocks;
 pub(crate) mod check;
 pub(crate) mod course;
 pub(crate) mod memory;

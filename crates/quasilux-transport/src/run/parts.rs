@@ -12,7 +12,7 @@ use crate::estimator::witness::Witness;
 use crate::estimator::{Estimator, new_estimator};
 use crate::prepared::PreparedScene;
 use crate::run::pictures::add_pictures;
-use crate::run::simulate::{Look, look};
+use crate::run::simulate::{Look, Looking, look};
 use crate::settings::Settings;
 use crate::spectrum::{Spectrum, is_grey};
 use crate::stats::decisions::Decisions;
@@ -176,8 +176,14 @@ fn put_together<'p, S: Spectrum>(
     estimator.complete_at(samples);
     let mut witness = Witness::new(&context, scene, settings);
     let miss_probability = 1.0 - settings.confidence;
-    let Look { mut estimates, .. } =
-        look(&context, scene, settings, estimator.as_ref(), &mut witness, miss_probability);
+    let Look { mut estimates, .. } = look(
+        &context,
+        scene,
+        settings,
+        estimator.as_ref(),
+        &mut witness,
+        Looking { miss_probability, watch },
+    );
     drop(witness);
     estimates.decisions = decisions;
     drop(estimator);

@@ -18,11 +18,15 @@ use crate::stats::schedule::{MIN_SAMPLES, Schedule};
 use crate::stats::sequential::miss_probability_of_a_look;
 use crate::stats::tolerance::Standing;
 use crate::stats::watch::Watch;
+use crate::stats::workers::Workers;
 use quasilux_bvh::SimdLevel;
 use quasilux_scene::{Rgb, Scene};
 
 /// Relative half-widths of what does not differ between replicates.
 const ROUNDING: f64 = 1e-12;
+
+/// Why a run without workers has a result.
+const ALWAYS: &str = "only workers can fail";
 
 /// Simulates light in a scene until every sensor point reaches the wanted tolerance, a limit comes
 /// first, or the observer stops it; at least up to the first checkpoint. A point that is done
@@ -51,12 +55,37 @@ pub(crate) fn simulate_on<'a>(
 ) -> Estimates {
     let prepared = scene.into();
     let scene = prepared.scene();
+    let watch = Watch::new(observer);
     let estimates = if is_grey(scene) {
-        run(&Context::<f64>::on(simd, prepared, settings), scene, settings, None, observer)
+        run(&Context::<f64>::on(simd, prepared, settings), scene, settings, None, watch)
     } else {
-        run(&Context::<Rgb>::on(simd, prepared, settings), scene, settings, None, observer)
+        run(&Context::<Rgb>::on(simd, prepared, settings), scene, settings, None, watch)
     };
-    estimates.expect("a run from the start needs no state")
+    estimates.expect("a run from the start needs no state").expect(ALWAYS)
+}
+
+/// Simulates as [`simulate`] does, to the same bits, with `workers` that trace most of the photons
+/// and paths; goes on from a state, if there is one. `None` where the workers failed. Surveys,
+/// pilots, photons that serve all paths and pictures are traced here, in the rayon pool that the
+/// call is made in.
+///
+/// # Errors
+/// When the state is damaged or of another run.
+pub fn simulate_with_workers<'a>(
+    scene: impl Into<PreparedScene<'a>>,
+    settings: &Settings,
+    state: Option<&[u8]>,
+    observer: &mut dyn Observer,
+    workers: &mut dyn Workers,
+) -> Result<Option<Estimates>, StateError> {
+    let prepared = scene.into();
+    let scene = prepared.scene();
+    let watch = Watch::new(observer).with_workers(workers);
+    if is_grey(scene) {
+        run(&Context::<f64>::new(prepared, settings), scene, settings, state, watch)
+    } else {
+        run(&Context::<Rgb>::new(prepared, settings), scene, settings, state, watch)
+    }
 }
 
 /// Goes on from a state that an observer of [`simulate`] with the same scene and settings got, and
@@ -64,6 +93,7 @@ pub(crate) fn simulate_on<'a>(
 ///
 /// # Errors
 /// When the state is damaged or of another run.
+#[expect(clippy::missing_panics_doc, reason = "only workers can fail")]
 pub fn resume<'a>(
     scene: impl Into<PreparedScene<'a>>,
     settings: &Settings,
@@ -72,11 +102,13 @@ pub fn resume<'a>(
 ) -> Result<Estimates, StateError> {
     let prepared = scene.into();
     let scene = prepared.scene();
-    if is_grey(scene) {
-        run(&Context::<f64>::new(prepared, settings), scene, settings, Some(state), observer)
+    let watch = Watch::new(observer);
+    let estimates = if is_grey(scene) {
+        run(&Context::<f64>::new(prepared, settings), scene, settings, Some(state), watch)
     } else {
-        run(&Context::<Rgb>::new(prepared, settings), scene, settings, Some(state), observer)
-    }
+        run(&Context::<Rgb>::new(prepared, settings), scene, settings, Some(state), watch)
+    };
+    estimates.map(|estimates| estimates.expect(ALWAYS))
 }
 
 /// Whether a state that an observer got is that of a run whose checkpoints are over. Bytes that are
@@ -93,9 +125,8 @@ fn run<S: Spectrum>(
     scene: &Scene,
     settings: &Settings,
     state: Option<&[u8]>,
-    observer: &mut dyn Observer,
-) -> Result<Estimates, StateError> {
-    let mut watch = Watch::new(observer);
+    mut watch: Watch<'_>,
+) -> Result<Option<Estimates>, StateError> {
     let mut witness = Witness::new(context, scene, settings);
     let own_share = if witness.is_some() { 1.0 / (1.0 + witness::SHARE) } else { 1.0 };
     watch.limit_rays(settings.max_rays.map(|most| (own_share * most as f64) as u64));
@@ -105,6 +136,7 @@ fn run<S: Spectrum>(
     let limit = if scene.sensors.is_empty() { Some(1) } else { settings.max_samples };
     let mut course = Course::new(Schedule::new(first, limit));
     let decisions = estimator.decisions();
+    watch.expect_decisions(decisions.digest);
     if let Some(state) = state {
         let mut from = Reader::new(state);
         if from.bytes(decisions.digest.len())? != decisions.digest {
@@ -121,11 +153,14 @@ fn run<S: Spectrum>(
     let steps = Steps { context, scene, settings, decisions: &decisions };
     steps.advance_to_the_end(estimator.as_mut(), &mut witness, &mut course, &mut watch);
     drop(estimator);
+    if watch.has_failed() {
+        return Ok(None);
+    }
     let mut estimates = course.last.expect("a run is never stopped before its first checkpoint");
     // The last checkpoint may have come from a state.
     estimates.decisions = decisions;
     add_pictures(context, scene, settings, &mut estimates, &mut watch);
-    Ok(estimates)
+    Ok(Some(estimates))
 }
 
 /// The steps from checkpoint to checkpoint, and what stays the same in them.
@@ -157,8 +192,17 @@ impl<S: Spectrum> Steps<'_, '_, S> {
                 break;
             }
             let miss_probability = stopping.miss_probability;
-            let Look { mut estimates, standing } =
-                look(context, scene, settings, &*estimator, witness, miss_probability);
+            let Look { mut estimates, standing } = look(
+                context,
+                scene,
+                settings,
+                &*estimator,
+                witness,
+                Looking { miss_probability, watch },
+            );
+            if watch.has_failed() {
+                break;
+            }
             estimates.decisions = decisions.clone();
             let is_look = stopping.may_end && course.schedule.is_look();
             let is_enough = is_look && standing.may_end;
@@ -224,6 +268,13 @@ pub(crate) struct Look {
     pub(crate) standing: Standing,
 }
 
+/// What a look needs beside the sums.
+pub(crate) struct Looking<'l, 'o> {
+    /// Of the interval of each target.
+    pub(crate) miss_probability: f64,
+    pub(crate) watch: &'l mut Watch<'o>,
+}
+
 /// Looks at the sums of a run.
 pub(crate) fn look<S: Spectrum>(
     context: &Context<'_, S>,
@@ -231,13 +282,13 @@ pub(crate) fn look<S: Spectrum>(
     settings: &Settings,
     estimator: &(dyn Estimator + '_),
     witness: &mut Option<Witness<'_, S>>,
-    miss_probability: f64,
+    Looking { miss_probability, watch }: Looking<'_, '_>,
 ) -> Look {
     let mut estimates = estimator.estimates();
     estimates.confidence = settings.confidence;
     estimates.miss_probability = miss_probability;
     if let Some(witness) = witness {
-        hear(witness, &mut estimates);
+        hear(witness, &mut estimates, watch);
     }
     estimates.biased |= is_biased(scene, settings);
     estimates.warnings.extend(caveats(scene, settings));
@@ -271,8 +322,12 @@ pub(crate) fn look<S: Spectrum>(
 }
 
 /// Withdraws the intervals that the witness contradicts.
-fn hear<S: Spectrum>(witness: &mut Witness<'_, S>, estimates: &mut Estimates) {
-    witness.look(estimates.rays);
+fn hear<S: Spectrum>(
+    witness: &mut Witness<'_, S>,
+    estimates: &mut Estimates,
+    watch: &mut Watch<'_>,
+) {
+    witness.look(estimates.rays, watch);
     estimates.rays += witness.rays();
     let mut contradicted = witness.contradicts(&estimates.sensors).into_iter();
     for sensor in &mut estimates.sensors {

@@ -4,7 +4,7 @@
 //! those of sensor values, [`sequential`] what looking several times costs them, [`schedule`] and
 //! [`tolerance`] what the decision to stop needs (`run::simulate` takes it), [`convergence`] the
 //! prediction of the end, [`efficiency`] the choice between estimators, [`observer`] and [`watch`]
-//! the way out of a run.
+//! the way out of a run, [`workers`] the way to other processes.
 
 pub mod convergence;
 pub(crate) mod decisions;
@@ -21,3 +21,4 @@ pub(crate) mod tally;
 pub(crate) mod targets;
 pub(crate) mod tolerance;
 pub(crate) mod watch;
+pub(crate) mod workers;

@@ -3,6 +3,8 @@
 use crate::codec::{Reader, StateError, Writer};
 use crate::stats::estimates::Estimates;
 use crate::stats::observer::{Control, Observer, PictureProgress, Progress, Snapshot};
+use crate::stats::workers::{self, Workers};
+use serde::Serialize;
 use std::ops::Range;
 
 /// Tells the observer how far a run is, and remembers whether it said stop.
@@ -27,6 +29,25 @@ pub(crate) struct Watch<'o> {
     obeys: bool,
     /// Whether it did, within a piece.
     stopped: bool,
+    /// Others that trace blocks of the work.
+    workers: Option<&'o mut dyn Workers>,
+    /// Digest of what was decided before the first sample.
+    decisions: [u8; 32],
+    /// Whether what workers did is no use.
+    failed: bool,
+}
+
+/// Blocks of some work that workers trace.
+pub(crate) struct Blocks {
+    frame: Vec<u8>,
+    ranges: Vec<Range<u64>>,
+}
+
+/// The work of a block.
+pub(crate) struct BlockCounts {
+    pub(crate) photons: u64,
+    pub(crate) paths: u64,
+    pub(crate) rays: u64,
 }
 
 impl<'o> Watch<'o> {
@@ -62,7 +83,83 @@ impl<'o> Watch<'o> {
             after,
             obeys,
             stopped,
+            workers: None,
+            decisions: [0; 32],
+            failed: false,
         }
+    }
+
+    /// With others that trace blocks.
+    pub(crate) fn with_workers(self, workers: &'o mut dyn Workers) -> Self {
+        Self { workers: Some(workers), ..self }
+    }
+
+    /// What workers must have decided before the first sample, too.
+    pub(crate) fn expect_decisions(&mut self, digest: [u8; 32]) {
+        self.decisions = digest;
+    }
+
+    /// Work that the observer neither sees nor stops, by the same workers.
+    pub(crate) fn aside<T>(&mut self, work: impl FnOnce(&mut Watch<'_>) -> T) -> T {
+        let mut nobody = ();
+        let mut aside = Watch::new(&mut nobody);
+        aside.decisions = self.decisions;
+        aside.workers = self.workers.as_mut().map(|workers| &mut **workers as &mut dyn Workers);
+        let outcome = work(&mut aside);
+        self.failed |= aside.failed;
+        outcome
+    }
+
+    /// Whether workers left blocks out, so that the run has no result.
+    pub(crate) fn has_failed(&self) -> bool {
+        self.failed
+    }
+
+    /// Blocks of `work`, each unit of which takes as long as about `each` paths; `None` where there
+    /// is nobody to trace them, or less than a block.
+    pub(crate) fn blocks<T: Serialize>(
+        &self,
+        frame: impl FnOnce() -> T,
+        work: Range<u64>,
+        each: u64,
+    ) -> Option<Blocks> {
+        let min_paths = self.workers.as_ref()?.min_paths();
+        let ranges = workers::blocks(&work, each, min_paths);
+        if ranges.is_empty() {
+            return None;
+        }
+        let mut out = Writer::default();
+        out.bytes(&self.decisions);
+        out.value(&frame());
+        Some(Blocks { frame: out.finish(), ranges })
+    }
+
+    /// Has workers trace blocks, and `add`s what comes of each; `false` when the observer stopped
+    /// it, or workers failed, which leaves the sums unusable.
+    #[must_use]
+    pub(crate) fn distribute(
+        &mut self,
+        Blocks { frame, ranges }: &Blocks,
+        add: &mut dyn FnMut(&mut Reader<'_>) -> Result<BlockCounts, StateError>,
+    ) -> bool {
+        let Some(workers) = self.workers.take() else { return false };
+        let (mut goes_on, mut is_sound) = (true, true);
+        let mut done = |_: usize, bytes: &[u8]| {
+            let mut from = Reader::new(bytes);
+            let added = add(&mut from).and_then(|counts| from.end().map(|()| counts));
+            match added {
+                Ok(BlockCounts { photons, paths, rays }) => {
+                    goes_on = self.tick(photons, paths, rays);
+                }
+                Err(_) => is_sound = false,
+            }
+            goes_on && is_sound
+        };
+        let all_came = workers.trace(frame, ranges, &mut done);
+        is_sound &= all_came;
+        self.workers = Some(workers);
+        self.failed |= !is_sound;
+        goes_on && is_sound
     }
 
     /// A range of indices, each of so many photons or paths, in pieces between which states are
@@ -235,7 +332,7 @@ impl<'o> Watch<'o> {
 }
 
 /// A range in pieces of this length.
-fn split(range: Range<u64>, length: u64) -> impl Iterator<Item = Range<u64>> {
+pub(crate) fn split(range: Range<u64>, length: u64) -> impl Iterator<Item = Range<u64>> {
     let mut next = range.start;
     std::iter::from_fn(move || {
         let piece = next..range.end.min(next.saturating_add(length));

@@ -45,3 +45,4 @@ mod states;
 mod terms;
 mod traps;
 mod witness;
+mod workers;

@@ -32,6 +32,7 @@ mod unseen;
 use crate::codec::{Reader, StateError, Writer};
 use crate::context::Context;
 use crate::estimator::Estimator;
+use crate::estimator::block::{BlockFrame, PathRole};
 use crate::estimator::path_estimator::PathEstimator;
 use crate::settings::Settings;
 use crate::spectrum::Spectrum;
@@ -77,10 +78,9 @@ impl<S: Spectrum> Bidirectional<'_, S> {
         put_beside_relief(&self.probe, &self.taken_over, out);
     }
 
-    /// Traces the probe up to so many samples; nobody stops it half-way.
-    fn trace_probe(&mut self, samples: u64) {
-        let mut nobody = ();
-        let _ = self.probe.advance(samples, &mut Watch::new(&mut nobody));
+    /// Traces the probe up to so many samples; nobody stops it half-way, but where workers fail.
+    fn trace_probe(&mut self, samples: u64, watch: &mut Watch<'_>) {
+        let _ = watch.aside(|watch| self.probe.advance(samples, watch));
     }
 }
 
@@ -117,8 +117,9 @@ impl<'a, S: Spectrum> AutoEstimator<'a, S> {
         watch: &mut Watch<'_>,
     ) -> Self {
         let bidirectional = || {
-            let relief = PathEstimator::bidirectional(context, scene, settings).without_targets();
-            let probe = PathEstimator::bidirectional(context, scene, settings);
+            let bidirectional = || PathEstimator::bidirectional(context, scene, settings);
+            let relief = bidirectional().without_targets().with_role(PathRole::Relief);
+            let probe = bidirectional().with_role(PathRole::Probe);
             let taken_over = vec![false; relief.begun().len()];
             Bidirectional { probe, relief, taken_over }
         };
@@ -134,9 +135,9 @@ impl<'a, S: Spectrum> AutoEstimator<'a, S> {
         while self.wants_probe() {
             let Some(own) = &mut self.bidirectional else { break };
             let before = own.probe.sampling_rays();
-            own.trace_probe(next_of_probe(&own.probe));
+            own.trace_probe(next_of_probe(&own.probe), watch);
             let rays = own.probe.sampling_rays() - before;
-            if !watch.tick(0, 0, rays) || !watch.keep(|out| self.put(out)) {
+            if watch.has_failed() || !watch.tick(0, 0, rays) || !watch.keep(|out| self.put(out)) {
                 return false;
             }
         }
@@ -276,7 +277,8 @@ impl<S: Spectrum> Estimator for AutoEstimator<'_, S> {
             return Err(StateError::Unfit("the points that were taken over"));
         }
         own.taken_over = taken_over;
-        own.trace_probe(probed);
+        let mut nobody = ();
+        own.trace_probe(probed, &mut Watch::new(&mut nobody));
         Ok(())
     }
 
@@ -298,6 +300,23 @@ impl<S: Spectrum> Estimator for AutoEstimator<'_, S> {
 
     fn merge_part(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
         self.selected.merge_part(from)
+    }
+
+    fn trace_block(
+        &mut self,
+        frame: &BlockFrame,
+        block: Range<u64>,
+    ) -> Result<Vec<u8>, StateError> {
+        let role = match frame {
+            BlockFrame::Paths { role, .. } => *role,
+            _ => PathRole::Selected,
+        };
+        match (role, &mut self.bidirectional) {
+            (PathRole::Selected, _) => self.selected.trace_block(frame, block),
+            (PathRole::Probe, Some(own)) => own.probe.trace_block(frame, block),
+            (PathRole::Relief, Some(own)) => own.relief.trace_block(frame, block),
+            (_, None) => Err(StateError::Unfit("the kind of a block")),
+        }
     }
 
     fn complete_at(&mut self, samples: u64) {

@@ -77,6 +77,11 @@ impl CellTally {
         trace_photons(context, &batch, receiver, watch)
     }
 
+    /// Forgets all photons.
+    pub(super) fn clear(&self) {
+        self.sums.iter().for_each(|sums| lock(sums).fill(Sum::default()));
+    }
+
     /// Declares the sums complete up to this number of photons in each replicate.
     pub(super) fn freeze_converged(&mut self, photons: u64) {
         let means_of = |sums: &Mutex<Vec<Sum>>| self.means_of(&lock(sums), photons.max(1) as f64);

@@ -175,6 +175,18 @@ impl LightVertexConnections {
         samples: u64,
         watch: &mut Watch<'_>,
     ) -> Option<[PhotonCounts; 2]> {
+        let counts = self.trace(context, samples, watch)?;
+        self.go_to(samples);
+        Some(counts)
+    }
+
+    /// Adds the same to the sums, which are not complete before [`Self::go_to`] says so.
+    pub(crate) fn trace<S: Spectrum>(
+        &mut self,
+        context: &Context<'_, S>,
+        samples: u64,
+        watch: &mut Watch<'_>,
+    ) -> Option<[PhotonCounts; 2]> {
         let photons = self.connection.photons();
         let mut counts = PhotonCounts::default();
         let mut counted = PhotonCounts::default();
@@ -204,9 +216,31 @@ impl LightVertexConnections {
             };
             counts += trace_photons(context, &batch, receiver, watch)?;
         }
-        self.samples = samples;
-        self.count();
         Some([counts, counted])
+    }
+
+    /// Forgets all photons, and goes to this index.
+    pub(crate) fn clear_at(&mut self, index: u64) {
+        self.samples = index;
+        self.sums.iter().flatten().for_each(|sums| lock(sums).fill(Sum::default()));
+        self.scores.iter().for_each(|scores| lock(scores).fill(Scores::default()));
+        self.coarse.iter().for_each(|(_, coarse)| coarse.clear());
+    }
+
+    /// Puts out the sums alone.
+    pub(crate) fn put_sums(&self, out: &mut Writer) {
+        self.sums.iter().flatten().for_each(|sums| lock(sums).as_slice().put(out));
+        self.scores.iter().for_each(|scores| lock(scores).as_slice().put(out));
+        self.coarse.iter().for_each(|(_, coarse)| coarse.put(out));
+    }
+
+    /// Adds such.
+    pub(crate) fn merge_sums(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
+        let mut sums = self.sums.iter().flatten();
+        sums.try_for_each(|sums| lock(sums).as_mut_slice().merge_from(from))?;
+        let mut scores = self.scores.iter();
+        scores.try_for_each(|scores| lock(scores).as_mut_slice().merge_from(from))?;
+        self.coarse.as_mut().map_or(Ok(()), |(_, coarse)| coarse.merge_from(from))
     }
 
     /// A group of targets that photons are connected to.
@@ -313,22 +347,12 @@ impl LightVertexConnections {
 
 impl Stored for LightVertexConnections {
     fn put(&self, out: &mut Writer) {
-        self.sums.iter().flatten().for_each(|sums| lock(sums).as_slice().put(out));
-        self.scores.iter().for_each(|scores| lock(scores).as_slice().put(out));
-        if let Some((_, coarse)) = &self.coarse {
-            coarse.put(out);
-        }
+        self.put_sums(out);
         out.value(&self.settled);
     }
 
     fn merge_from(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
-        self.sums
-            .iter()
-            .flatten()
-            .try_for_each(|sums| lock(sums).as_mut_slice().merge_from(from))?;
-        let mut scores = self.scores.iter();
-        scores.try_for_each(|scores| lock(scores).as_mut_slice().merge_from(from))?;
-        self.coarse.as_mut().map_or(Ok(()), |(_, coarse)| coarse.merge_from(from))?;
+        self.merge_sums(from)?;
         let length = self.replicates.len() * (1 + self.terms);
         let settled: Vec<Option<Vec<f64>>> = from.value()?;
         let fits = |parts: &Vec<f64>| parts.len() == length;

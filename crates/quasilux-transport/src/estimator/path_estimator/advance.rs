@@ -15,7 +15,7 @@ use rayon::prelude::*;
 use std::ops::Range;
 
 /// Paths between two words to the observer.
-const ROUND: u64 = 1 << 17;
+pub(super) const ROUND: u64 = 1 << 17;
 
 impl<S: Spectrum> PathEstimator<'_, S> {
     /// Traces the photons that serve all paths of the indices up to `samples`; `false` when the
@@ -54,6 +54,10 @@ impl<S: Spectrum> PathEstimator<'_, S> {
             return false;
         }
         let indices = self.next_indices(samples);
+        if let Some(is_done) = self.gather_by_workers(&indices, samples, watch) {
+            (self.samples, self.done) = (samples, 0);
+            return is_done;
+        }
         let each = (indices.end - indices.start) * u64::from(self.replicates);
         let paths = each * self.growing.len() as u64;
         for round in watch.rounds(self.done..paths, ROUND) {
@@ -80,6 +84,9 @@ impl<S: Spectrum> PathEstimator<'_, S> {
 
     /// Traces the photons of light vertex connections up to `samples`.
     fn connect_photons(&mut self, samples: u64, watch: &mut Watch<'_>) -> bool {
+        if let Some(is_done) = self.connect_by_workers(samples, watch) {
+            return is_done;
+        }
         let Some(light_vertices) = &self.light_vertices else { return true };
         let photons = light_vertices.samples()..samples;
         for piece in watch.pieces(photons, light_vertices.work_of_an_index()) {
@@ -112,7 +119,7 @@ impl<S: Spectrum> PathEstimator<'_, S> {
     }
 
     /// Adds the sums of pieces and returns their work.
-    fn add(&mut self, pieces: Vec<Piece>) -> WorkCounts {
+    pub(super) fn add(&mut self, pieces: Vec<Piece>) -> WorkCounts {
         let mut counts = WorkCounts::default();
         for Piece { first, sums, scores, work } in pieces {
             for (number, (found, scores)) in (first..).zip(sums.into_iter().zip(scores)) {

@@ -14,6 +14,15 @@ impl<S: Spectrum> PathEstimator<'_, S> {
         self.keep_to_ends();
     }
 
+    /// Photons and paths from here to so many indices.
+    pub(super) fn work_up_to(&self, samples: u64) -> u64 {
+        let joined = self.light_vertices.as_ref().map_or(0, |it| it.work_of_an_index());
+        let paths = (self.growing.len() as u64).saturating_mul(u64::from(self.replicates));
+        let photons = self.end.photons_of_an_index(self.replicates);
+        let each = paths.saturating_add(photons).saturating_add(joined);
+        each.saturating_mul(samples.saturating_sub(self.samples))
+    }
+
     /// Whether each target has begun.
     pub(crate) fn begun(&self) -> Vec<bool> {
         self.begins.iter().map(Option::is_some).collect()

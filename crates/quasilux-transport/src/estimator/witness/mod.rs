@@ -18,6 +18,7 @@
 //! function of scene, settings and that number of rays, and is computed anew where a run goes on or
 //! parts are merged: it has no state of its own.
 
+mod blocks;
 mod receiver;
 
 use crate::context::{Context, Stream};
@@ -109,13 +110,19 @@ impl<'a, S: Spectrum> Witness<'a, S> {
     }
 
     /// Looks for light until its rays are their share of `rays`, those of the run.
-    pub(crate) fn look(&mut self, rays: u64) {
+    pub(crate) fn look(&mut self, rays: u64, watch: &mut Watch<'_>) {
         let budget = 0.5 * SHARE * rays as f64;
         while let Some(indices) = self.photons.next(budget) {
-            self.trace_photons(indices);
+            if !self.photons_by_workers(&indices, watch) {
+                self.trace_photons(indices.clone());
+            }
+            self.photons.indices = indices.end;
         }
         while let Some(indices) = self.paths.as_ref().and_then(|paths| paths.next(budget)) {
-            self.trace_paths(indices);
+            if !self.paths_by_workers(&indices, watch) {
+                self.trace_paths(indices.clone());
+            }
+            self.paths.iter_mut().for_each(|paths| paths.indices = indices.end);
         }
     }
 
@@ -177,7 +184,6 @@ impl<'a, S: Spectrum> Witness<'a, S> {
                 own.sums[target * BATCHES as usize + batch] += sum;
             }
         }
-        own.indices = batch.indices.end;
         own.rays += counts.map_or(0, |counts| counts.rays);
     }
 
@@ -211,7 +217,6 @@ impl<'a, S: Spectrum> Witness<'a, S> {
                 work.rays
             })
             .sum();
-        own.indices = indices.end;
         own.rays += rays;
     }
 }

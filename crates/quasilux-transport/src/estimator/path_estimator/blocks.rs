@@ -1,0 +1,203 @@
+//! Blocks of the path estimator's work: asked of workers, and traced for others.
+
+use super::advance::ROUND;
+use super::{Costs, PathEstimator};
+use crate::codec::{Reader, StateError, Stored, Writer};
+use crate::estimator::block::{BlockFrame, PathProgress, PathRole};
+use crate::path::sections::{PathScores, PathSums, Piece, WorkCounts};
+use crate::path::wave::{PathWave, WAVE};
+use crate::photon::counts::PhotonCounts;
+use crate::spectrum::Spectrum;
+use crate::stats::watch::{BlockCounts, Watch, split};
+use rayon::prelude::*;
+use std::ops::Range;
+
+impl<S: Spectrum> PathEstimator<'_, S> {
+    /// For this purpose.
+    pub(crate) fn with_role(self, role: PathRole) -> Self {
+        Self { role, ..self }
+    }
+
+    fn progress(&self, coming: u64) -> PathProgress {
+        let (begins, ends) = (self.begins.clone(), self.ends.clone());
+        PathProgress { samples: self.samples, coming, begins, ends }
+    }
+
+    /// Has workers trace the paths `indices` of all growing targets and replicates, up to the
+    /// checkpoint `coming`; `None` where there are no workers, `false` when the run was stopped.
+    pub(super) fn gather_by_workers(
+        &mut self,
+        indices: &Range<u64>,
+        coming: u64,
+        watch: &mut Watch<'_>,
+    ) -> Option<bool> {
+        let pairs = self.growing.len() as u64 * u64::from(self.replicates);
+        let paths = (indices.end - indices.start) * pairs;
+        let frame = || BlockFrame::Paths { role: self.role, progress: self.progress(coming) };
+        let blocks = watch.blocks(frame, 0..paths, 1)?;
+        Some(watch.distribute(&blocks, &mut |from| {
+            let piece = Piece::read(from, pairs as usize)?;
+            let work = self.add(vec![piece]);
+            let counts = BlockCounts { photons: 0, paths: work.paths, rays: work.rays };
+            self.contribution.work += work;
+            Ok(counts)
+        }))
+    }
+
+    /// Has workers trace the photons that are connected to targets, from the indices so far up to
+    /// `coming`; `None` and `false` as above.
+    pub(super) fn connect_by_workers(
+        &mut self,
+        coming: u64,
+        watch: &mut Watch<'_>,
+    ) -> Option<bool> {
+        let progress = || BlockFrame::ConnectedPhotons { progress: self.progress(coming) };
+        let light_vertices = self.light_vertices.as_ref()?;
+        let indices = light_vertices.samples()..coming;
+        let blocks = watch.blocks(progress, indices, light_vertices.work_of_an_index())?;
+        let Self { light_vertices, contribution, .. } = self;
+        let light_vertices = light_vertices.as_mut()?;
+        let is_done = watch.distribute(&blocks, &mut |from| {
+            let mut costs = Costs::default();
+            costs.merge_from(from)?;
+            light_vertices.merge_sums(from)?;
+            let (photons, rays) = (costs.photons.begun, costs.photons.rays);
+            contribution.photons += costs.photons;
+            Ok(BlockCounts { photons, paths: 0, rays })
+        });
+        light_vertices.go_to(coming);
+        Some(is_done)
+    }
+
+    /// Traces a block for another process, which is so far.
+    pub(crate) fn trace_block(
+        &mut self,
+        frame: &BlockFrame,
+        block: Range<u64>,
+    ) -> Result<Vec<u8>, StateError> {
+        let (BlockFrame::Paths { progress, .. } | BlockFrame::ConnectedPhotons { progress }) =
+            frame
+        else {
+            return Err(StateError::Unfit("the kind of a block"));
+        };
+        self.follow(progress)?;
+        match frame {
+            BlockFrame::ConnectedPhotons { .. } => self.connect_block(block, progress.coming),
+            _ => self.gather_block(&block, progress.coming),
+        }
+    }
+
+    /// Goes to where another process is.
+    fn follow(&mut self, progress: &PathProgress) -> Result<(), StateError> {
+        let PathProgress { samples, coming, begins, ends } = progress;
+        let targets = self.targets.len();
+        // Maps that have grown do not shrink.
+        let has_maps = self.end.photons(*coming).is_some() || self.caustics.is_some();
+        let is_behind = (self.served <= *coming || !has_maps) && samples < coming;
+        if [begins.len(), ends.len()] != [targets; 2] || !is_behind {
+            return Err(StateError::Unfit("the progress of the run"));
+        }
+        let mut nobody = ();
+        let watch = &mut Watch::new(&mut nobody);
+        if self.served < *coming && !self.serve(*coming, watch) {
+            return Err(StateError::Unfit("the progress of the run"));
+        }
+        self.served = *coming;
+        self.samples = *samples;
+        if self.begins != *begins || self.ends != *ends {
+            self.begins.clone_from(begins);
+            self.ends.clone_from(ends);
+            self.keep_to_ends();
+        }
+        Ok(())
+    }
+
+    fn gather_block(&self, block: &Range<u64>, coming: u64) -> Result<Vec<u8>, StateError> {
+        let from = if self.end.photons(coming).is_some() { self.first } else { self.samples };
+        let indices = from..coming;
+        let pairs = self.growing.len() as u64 * u64::from(self.replicates);
+        let each = indices.end - indices.start;
+        let is_within = each.checked_mul(pairs).is_some_and(|paths| block.end <= paths);
+        if block.is_empty() || !is_within {
+            return Err(StateError::Unfit("the range of a block"));
+        }
+        let numbers = block.start / each..block.end.div_ceil(each);
+        let mut whole = Piece::empty(numbers.start as usize..numbers.end as usize);
+        for round in split(block.clone(), ROUND) {
+            let pieces = (round.end - round.start).div_ceil(WAVE);
+            let trace = |wave: &mut PathWave<S>, piece: u64| {
+                let first = round.start + piece * WAVE;
+                self.trace_piece(&(first..(first + WAVE).min(round.end)), &indices, wave)
+            };
+            let found: Vec<Piece> =
+                (0..pieces).into_par_iter().map_init(PathWave::default, trace).collect();
+            found.into_iter().for_each(|piece| whole.absorb(piece));
+        }
+        let mut out = Writer::default();
+        whole.put(&mut out);
+        Ok(out.finish())
+    }
+
+    fn connect_block(&mut self, block: Range<u64>, coming: u64) -> Result<Vec<u8>, StateError> {
+        let context = self.context;
+        let unfit = StateError::Unfit("the range of a block");
+        let light_vertices = self.light_vertices.as_mut().ok_or(unfit.clone())?;
+        if block.is_empty() || block.end > coming {
+            return Err(unfit);
+        }
+        light_vertices.clear_at(block.start);
+        let mut nobody = ();
+        let watch = &mut Watch::new(&mut nobody);
+        let photons = light_vertices.trace(context, block.end, watch).ok_or(unfit)?;
+        let mut costs = Costs::default();
+        let photons = photons.into_iter().map(PhotonCounts::apart_from_flux);
+        photons.for_each(|photons| costs.photons += photons);
+        let mut out = Writer::default();
+        costs.put(&mut out);
+        light_vertices.put_sums(&mut out);
+        Ok(out.finish())
+    }
+}
+
+impl Piece {
+    /// Of no paths of these sections.
+    fn empty(numbers: Range<usize>) -> Self {
+        let sections = numbers.len();
+        Self {
+            first: numbers.start,
+            sums: vec![PathSums::default(); sections],
+            scores: vec![PathScores::default(); sections],
+            work: WorkCounts::default(),
+        }
+    }
+
+    /// Adds a piece of its sections.
+    fn absorb(&mut self, piece: Self) {
+        let first = piece.first - self.first;
+        for (sums, more) in self.sums[first..].iter_mut().zip(piece.sums) {
+            *sums += more;
+        }
+        for (scores, more) in self.scores[first..].iter_mut().zip(&piece.scores) {
+            scores.merge(more);
+        }
+        self.work += piece.work;
+    }
+
+    fn put(&self, out: &mut Writer) {
+        out.value(&self.first);
+        out.value(&self.sums);
+        out.value(&self.scores);
+        out.value(&self.work);
+    }
+
+    /// Of sections with numbers below `pairs`.
+    fn read(from: &mut Reader<'_>, pairs: usize) -> Result<Self, StateError> {
+        let (first, sums): (usize, Vec<PathSums>) = (from.value()?, from.value()?);
+        let (scores, work): (Vec<PathScores>, WorkCounts) = (from.value()?, from.value()?);
+        let is_within = first.checked_add(sums.len()).is_some_and(|end| end <= pairs);
+        if !is_within || scores.len() != sums.len() {
+            return Err(StateError::Unfit("the sums of a block"));
+        }
+        Ok(Self { first, sums, scores, work })
+    }
+}
