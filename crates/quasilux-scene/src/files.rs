@@ -52,6 +52,27 @@ pub trait Files {
     /// # Errors
     /// When the file cannot be read.
     fn read(&self, path: &str, kind: FileKind) -> io::Result<Vec<u8>>;
+
+    /// The triangles that the project file calls `path` in its list of geometry, where they are in
+    /// memory and not in a file. Asked first, whatever the name ends in.
+    fn triangles(&self, _path: &str) -> Option<TriangleArrays<'_>> {
+        None
+    }
+}
+
+/// Triangles in memory, in the axes and the unit that the project file states for geometry.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct TriangleArrays<'a> {
+    /// Vertex positions. Those of equal coordinates become one.
+    pub positions: &'a [[f64; 3]],
+    /// Indices into `positions`, counter-clockwise seen from the front side.
+    pub triangles: &'a [[u32; 3]],
+    /// Index into `materials` for each triangle; empty where all have the first one.
+    pub material_of: &'a [u32],
+    /// Names of materials, as the project file has them. Without any, triangles have none.
+    pub materials: &'a [String],
+    /// Name of the object that the triangles are; empty where it is that of the arrays.
+    pub object: &'a str,
 }
 
 /// That a file has more bytes than are read: `max_bytes`.

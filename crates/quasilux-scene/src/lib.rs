@@ -26,7 +26,7 @@ pub mod solids;
 pub use bsdf::Bsdf;
 pub use camera::{Camera, View};
 pub use error::{LoadError, Spanned, Warning};
-pub use files::{FileKind, Files, too_large};
+pub use files::{FileKind, Files, TriangleArrays, too_large};
 pub use light::Light;
 pub use load::{Loaded, Places, load};
 pub use mesh::Mesh;

@@ -112,7 +112,8 @@ impl CheckpointWriter {
         results::expect_text(file)?;
         results::expect_text(out)?;
         atomic_file::try_beside(path).map_err(|error| {
-            CliError::new(format!("{}: cannot keep the run: {error}", path.display()))
+            let message = format!("cannot keep the run: {error}");
+            CliError::in_file(path.display(), None, message)
         })?;
         let heading = Heading {
             version: VERSION.to_owned(),
@@ -195,16 +196,17 @@ fn expect_nothing_to_lose(path: &Path, project: &Project) -> Result<(), CliError
     let name = path.display();
     let Checkpoint { heading, state } = read(path)
         .map(|latest| latest.checkpoint)
-        .map_err(|error| CliError::new(format!("{error}; remove it to begin a run there")))?;
+        .map_err(|error| error.with_advice("; remove it to begin a run there"))?;
     let has_pictures = !project.loaded.scene.cameras.is_empty();
     if quasilux_transport::is_over(&state) && !has_pictures {
         return Ok(());
     }
     let project = heading.project.display();
-    Err(CliError::new(format!(
-        "{name}: keeps a run of {project} that may not be over: go on with `quasilux resume \
-         {name}`, or remove it to begin anew"
-    )))
+    let message = format!(
+        "keeps a run of {project} that may not be over: go on with `quasilux resume {name}`, or \
+         remove it to begin anew"
+    );
+    Err(CliError::in_file(name, None, message))
 }
 
 fn from_the_root(path: &Path) -> PathBuf {
@@ -213,8 +215,8 @@ fn from_the_root(path: &Path) -> PathBuf {
 
 fn read_one(path: &Path) -> Result<Checkpoint, CliError> {
     let name = path.display();
-    let bytes = container::read(path).map_err(|error| CliError::new(format!("{name}: {error}")))?;
-    parse(&bytes).map_err(|what| CliError::new(format!("{name}: {what}")))
+    let bytes = container::read(path).map_err(|error| CliError::in_file(&name, None, error))?;
+    parse(&bytes).map_err(|what| CliError::in_file(&name, None, what))
 }
 
 /// A checkpoint from the bytes of its file.

@@ -32,16 +32,15 @@ pub(crate) fn prepare(project: &Project) -> Admitted<'_> {
 }
 
 impl Door {
-    /// Lets a scene in.
+    /// Lets a scene in that was [prepared](prepare).
     ///
     /// # Errors
     /// When something is probably wrong with it, and the door is strict.
     pub(crate) fn admit<'a>(
         self,
-        project: &'a Project,
+        admitted: Admitted<'a>,
         watcher: &Watcher<'_>,
     ) -> Result<Admitted<'a>, CliError> {
-        let admitted = prepare(project);
         if self.strict && !admitted.findings.is_empty() {
             return Err(refusal(&admitted.findings));
         }

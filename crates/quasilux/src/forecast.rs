@@ -54,13 +54,12 @@ fn expect_bytes(loaded: &Loaded, settings: &Settings, available: u64) -> Result<
         return Ok(());
     }
     let Greediest { what, place } = greediest(loaded, settings);
-    let file = &loaded.places.file;
-    let place = place.map_or_else(String::new, |place| format!(":{}:{}", place.line, place.column));
     let [needed, there_is] = [bytes, available].map(memory);
-    Err(CliError::new(format!(
-        "{file}{place}: the run takes up to {bytes} bytes of memory ({needed}), most of it for \
-         {what}; expected at most {available} bytes ({there_is}), which there are"
-    )))
+    let message = format!(
+        "the run takes up to {bytes} bytes of memory ({needed}), most of it for {what}; expected \
+         at most {available} bytes ({there_is}), which there are"
+    );
+    Err(CliError::in_file(&loaded.places.file, place, message))
 }
 
 /// What takes the most memory, and where the project file asks for it.

@@ -1,58 +1,88 @@
-//! A project on disk: its files, and the settings that follow from it and the command line.
+//! A loaded project, and the settings that follow from it and the command line.
 
 use crate::arguments::SimulationArguments;
-use crate::digest::{SceneFile, SceneIdentity, sha256_hex};
+use crate::digest::SceneIdentity;
 use crate::exit::CliError;
 use crate::forecast;
 use crate::heartbeat::Heartbeat;
-use crate::input;
 use crate::names::{self, take_from_project as take};
+use crate::source::{Identified, Source};
 use quasilux_sampling::{Randomization, Sequence};
-use quasilux_scene::{FileKind, Files, LoadError, Loaded, SimulationSection, Spanned, load};
+use quasilux_scene::{LoadError, Loaded, SimulationSection, Spanned};
 use quasilux_transport::{EstimatorKind, Reconstruction, Settings, Switch, ToleranceOn};
-use std::cell::RefCell;
-use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
-
-/// Files relative to the project file's folder.
-struct Folder {
-    path: PathBuf,
-    /// Digests of what was read, by name; `None` where there was no file.
-    read: RefCell<BTreeMap<String, Option<String>>>,
-}
-
-impl Files for Folder {
-    fn read(&self, path: &str, kind: FileKind) -> std::io::Result<Vec<u8>> {
-        let outcome = input::read_kind(&self.path.join(path), kind);
-        let digest = outcome.as_ref().ok().map(|bytes| sha256_hex(bytes));
-        self.read.borrow_mut().insert(path.to_owned(), digest);
-        outcome
-    }
-}
+use std::path::Path;
 
 /// A loaded project, and what messages call its file.
-pub(crate) struct Project {
+pub struct Project {
     pub(crate) name: String,
     pub(crate) loaded: Loaded,
     /// Which scene it is.
     pub(crate) identity: SceneIdentity,
+    /// What it is made of.
+    pub(crate) source: Source,
 }
 
-/// Loads a project; messages name its files as the user does.
+/// Loads a project, with signs of life; messages name its files as the user does.
 pub(crate) fn open(path: &Path) -> Result<Project, CliError> {
-    let name = path.display().to_string();
-    let bytes = input::read(path, input::MAX_PROJECT_BYTES)
-        .map_err(|error| CliError::new(format!("{name}: {error}")))?;
-    let path_of_folder = path.parent().unwrap_or(Path::new("")).to_owned();
-    let folder = Folder { path: path_of_folder, read: RefCell::default() };
-    let signs_of_life = Heartbeat::new(&format!("reading {name}"));
-    let loaded = load(&name, &bytes, &folder)?;
-    drop(signs_of_life);
-    let own_name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let own = SceneFile { path: own_name, sha256: Some(sha256_hex(&bytes)) };
-    let others = folder.read.into_inner().into_iter();
-    let others = others.map(|(path, sha256)| SceneFile { path, sha256 }).collect();
-    Ok(Project { name, loaded, identity: SceneIdentity::new(own, others) })
+    let _signs_of_life = Heartbeat::new(&format!("reading {}", path.display()));
+    Project::open(path)
+}
+
+impl Project {
+    /// Loads a project file, or a bundle; messages name its files as the user does.
+    ///
+    /// # Errors
+    /// When a file cannot be read, parsed or made sense of.
+    pub fn open(path: &Path) -> Result<Self, CliError> {
+        Self::load(Source::at(path)?)
+    }
+
+    /// Loads a project of files and arrays in memory.
+    ///
+    /// # Errors
+    /// As [`Self::open`].
+    pub fn load(source: Source) -> Result<Self, CliError> {
+        let Identified { loaded, identity } = source.load()?;
+        Ok(Self { name: source.name.clone(), loaded, identity, source })
+    }
+
+    /// What messages call the project file.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// SHA-256 that identifies the scene, of the bytes of all that it was read from.
+    #[must_use]
+    pub fn sha256(&self) -> &str {
+        &self.identity.sha256
+    }
+
+    /// The scene, and what was said of it.
+    #[must_use]
+    pub fn loaded(&self) -> &Loaded {
+        &self.loaded
+    }
+
+    /// What the scene was made of.
+    #[must_use]
+    pub fn source(&self) -> &Source {
+        &self.source
+    }
+
+    /// Everything that the scene is made of, for another machine: [`Source::from_bundle`] reads it.
+    ///
+    /// # Errors
+    /// When a file has changed since the scene was loaded.
+    pub fn to_bundle(&self) -> Result<Vec<u8>, CliError> {
+        self.source.to_bundle(&self.identity)
+    }
+
+    /// What the project is called in pictures: its file without folder and ending.
+    pub(crate) fn title(&self) -> &str {
+        let stem = Path::new(&self.name).file_stem().and_then(|stem| stem.to_str());
+        stem.unwrap_or_default()
+    }
 }
 
 /// The settings of a run: the command line before the project file before defaults; checked against
@@ -71,7 +101,7 @@ pub(crate) fn settings(
     take_arguments(&mut settings, arguments)?;
     expect_an_end(project, &settings, arguments)?;
     let checked = quasilux_transport::check(&project.loaded.scene, &settings);
-    checked.map_err(|error| CliError::new(format!("{}: {error}", project.name)))?;
+    checked.map_err(|error| CliError::in_file(&project.name, None, error))?;
     forecast::expect_memory(&project.loaded, &settings)?;
     Ok(settings)
 }
@@ -165,7 +195,7 @@ pub(crate) fn kept_settings(
     let sequence = settings.sequence.with_points(settings.max_samples.unwrap_or(0));
     let settings = Settings { sequence, ..settings.clone() };
     let checked = quasilux_transport::check(&project.loaded.scene, &settings);
-    checked.map_err(|error| CliError::new(format!("{file}: {error}")))?;
+    checked.map_err(|error| CliError::in_file(file, None, error))?;
     forecast::expect_memory(&project.loaded, &settings)?;
     Ok(settings)
 }
@@ -188,11 +218,9 @@ fn expect_an_end(
     let has_limit =
         arguments.samples.is_some() || arguments.time.is_some() || arguments.rays.is_some();
     if settings.effective_replicates() < 2 && !has_limit {
-        return Err(CliError::new(format!(
-            "{}: one replicate gives no interval, so no tolerance can end the run: give --samples, \
-             --rays or --time, or ask for more replicates and a randomization",
-            project.name
-        )));
+        let message = "one replicate gives no interval, so no tolerance can end the run: give \
+                       --samples, --rays or --time, or ask for more replicates and a randomization";
+        return Err(CliError::in_file(&project.name, None, message));
     }
     Ok(())
 }

@@ -4,7 +4,8 @@
 use crate::atomic_file;
 use crate::exit::CliError;
 use quasilux_report::{
-    PictureOf, Report, camera_false_colour_png, csv, exr, false_colour_png, json, tone_mapped_png,
+    CameraReport, PictureOf, Report, SensorReport, camera_false_colour_png, csv, exr,
+    false_colour_png, json, tone_mapped_png,
 };
 use std::io::{self, Write};
 use std::path::Path;
@@ -14,39 +15,71 @@ pub(crate) fn prepare(folder: &Path) -> Result<(), CliError> {
     std::fs::create_dir_all(folder).map_err(|error| cannot_write(folder, &error))
 }
 
+/// A file of results, not made yet.
+pub struct ResultFile<'a> {
+    /// Its name in their folder.
+    pub name: String,
+    /// Makes what it holds.
+    pub render: Box<dyn FnOnce() -> Vec<u8> + 'a>,
+}
+
+impl<'a> ResultFile<'a> {
+    fn new(name: String, render: impl FnOnce() -> Vec<u8> + 'a) -> Self {
+        Self { name, render: Box::new(render) }
+    }
+}
+
 /// Writes everything; each file appears whole or not at all.
 pub(crate) fn write(folder: &Path, report: &Report, of: PictureOf<'_>) -> Result<(), CliError> {
-    write_atomic(&folder.join("result.json"), json::json(report).as_bytes())?;
-    for sensor in &report.sensors {
-        let file = |ending: &str| folder.join(format!("{}.{ending}", sensor.name));
-        write_atomic(&file("csv"), csv::csv(sensor).as_bytes())?;
-        if let Some(png) = false_colour_png(sensor, report, of) {
-            write_atomic(&file("png"), &png)?;
-        }
-    }
-    for camera in &report.cameras {
-        let Some(files) = camera.files() else { continue };
-        write_atomic(&folder.join(files.exr), &exr(camera))?;
-        write_atomic(&folder.join(files.png), &tone_mapped_png(camera))?;
-        let false_colours = camera_false_colour_png(camera, report);
-        write_atomic(&folder.join(files.false_colour_png), &false_colours)?;
-    }
-    Ok(())
+    files(report, of).try_for_each(|ResultFile { name, render }| {
+        write_atomic(&folder.join(name), &render())
+    })
+}
+
+/// All files of results.
+pub(crate) fn files<'a>(
+    report: &'a Report,
+    of: PictureOf<'a>,
+) -> impl Iterator<Item = ResultFile<'a>> {
+    let document =
+        ResultFile::new("result.json".to_owned(), || json::json(report).into_bytes());
+    let of_sensor = move |sensor: &'a SensorReport| {
+        let name = |ending: &str| format!("{}.{ending}", sensor.name);
+        let table = ResultFile::new(name("csv"), || csv::csv(sensor).into_bytes());
+        let picture = sensor.grid.map(|_| {
+            let png = move || false_colour_png(sensor, report, of).unwrap_or_default();
+            ResultFile::new(name("png"), png)
+        });
+        std::iter::once(table).chain(picture)
+    };
+    let of_camera = move |camera: &'a CameraReport| {
+        let files = camera.files().map(|names| {
+            [
+                ResultFile::new(names.exr, || exr(camera)),
+                ResultFile::new(names.png, || tone_mapped_png(camera)),
+                ResultFile::new(names.false_colour_png, || camera_false_colour_png(camera, report)),
+            ]
+        });
+        files.into_iter().flatten()
+    };
+    std::iter::once(document)
+        .chain(report.sensors.iter().flat_map(of_sensor))
+        .chain(report.cameras.iter().flat_map(of_camera))
 }
 
 /// Makes sure that `path` can become a file before anything is computed, and none of those that are
 /// read.
 pub(crate) fn prepare_file(path: &Path, read: &[&Path]) -> Result<(), CliError> {
     if path.is_dir() {
-        return Err(CliError::new(format!("{}: is a folder, expected a file", path.display())));
+        return Err(CliError::in_file(path.display(), None, "is a folder, expected a file"));
     }
     let same = |other: &&Path| match (path.canonicalize(), other.canonicalize()) {
         (Ok(own), Ok(other)) => own == other,
         _ => false,
     };
     if read.iter().any(same) {
-        let message = format!("{}: is read by this command, expected another file", path.display());
-        return Err(CliError::new(message));
+        let message = "is read by this command, expected another file";
+        return Err(CliError::in_file(path.display(), None, message));
     }
     match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => prepare(folder),
@@ -60,8 +93,8 @@ pub(crate) fn expect_text(path: &Path) -> Result<(), CliError> {
     if path.to_str().is_some() && absolute.is_ok_and(|path| path.to_str().is_some()) {
         return Ok(());
     }
-    let message = format!("{}: what is kept names the project, expected UTF-8", path.display());
-    Err(CliError::new(message))
+    let message = "what is kept names the project, expected UTF-8";
+    Err(CliError::in_file(path.display(), None, message))
 }
 
 /// Writes a file, whole or not at all.
@@ -80,5 +113,5 @@ pub(crate) fn stream_atomic(
 }
 
 fn cannot_write(path: &Path, error: &io::Error) -> CliError {
-    CliError::new(format!("{}: cannot write results: {error}", path.display()))
+    CliError::in_file(path.display(), None, format!("cannot write results: {error}"))
 }

@@ -50,6 +50,10 @@ pub(crate) struct Watcher<'a> {
     kept: Option<Checkpoints>,
     /// Why the run was told to stop, if it was.
     pub(crate) stopped: Option<Stopped>,
+    /// Whoever listens in place of the terminal.
+    listener: Option<Listener<'a>>,
+    /// What could not be told at once, for there is no terminal.
+    pub(crate) remarks: Vec<String>,
     /// Rays that were traced before the clock was started.
     pub(crate) earlier_rays: u64,
     /// What the run took before that, in s.
@@ -75,12 +79,26 @@ struct Checkpoints {
 
 /// Why a run was told to stop.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Stopped {
+pub enum Stopped {
     /// Its time was up.
     Time,
     /// The user interrupted it.
     Interrupt,
+    /// Its listener said so.
+    Listener,
 }
+
+/// What the listener of a run is told.
+#[derive(Clone, Copy, Debug)]
+pub enum Event<'a> {
+    /// How far it is, many times a second.
+    Progress(&'a Progress),
+    /// What it knows at a checkpoint.
+    Checkpoint(&'a Estimates),
+}
+
+/// Follows a run, on one of its threads, and may stop it: then it ends at its last checkpoint.
+pub type Listener<'a> = Box<dyn FnMut(Event<'_>) -> Control + Send + 'a>;
 
 impl<'a> Watcher<'a> {
     /// Prints something, the bar out of the way.
@@ -125,6 +143,8 @@ impl<'a> Watcher<'a> {
             picture: None,
             kept: None,
             stopped: None,
+            listener: None,
+            remarks: Vec::new(),
             earlier_rays: 0,
             earlier_seconds: 0.0,
         }
@@ -133,6 +153,11 @@ impl<'a> Watcher<'a> {
     /// For a run that took so many seconds already.
     pub(crate) fn going_on(self, earlier_seconds: f64) -> Self {
         Self { earlier_seconds, ..self }
+    }
+
+    /// For a run that whoever listens may stop, and not the terminal.
+    pub(crate) fn listened_to(self, listener: Option<Listener<'a>>) -> Self {
+        Self { listener, ..self }
     }
 
     /// Keeps the run on disk: at once, every so often, and when it is told to stop.
@@ -198,8 +223,11 @@ impl<'a> Watcher<'a> {
         self.bar.set_message(course + values);
     }
 
-    fn control(&mut self) -> Control {
-        if interrupt::requested() {
+    fn control(&mut self, event: Event<'_>) -> Control {
+        let heard = self.listener.as_mut().map(|listener| listener(event));
+        if heard == Some(Control::Stop) {
+            self.stopped = Some(Stopped::Listener);
+        } else if heard.is_none() && interrupt::requested() {
             self.stopped = Some(Stopped::Interrupt);
         } else if self.end_of_step().is_some_and(|end| Instant::now() >= end) {
             self.stopped = Some(Stopped::Time);
@@ -227,8 +255,12 @@ impl Observer for Watcher<'_> {
         {
             kept.has_failed = true;
             let name = kept.writer.path().display();
-            let warning = format!("warning: {name}: cannot keep the run: {error}");
-            self.bar.suspend(|| tell(warning));
+            let warning = format!("{name}: cannot keep the run: {error}");
+            if self.listener.is_none() {
+                self.bar.suspend(|| tell(format_args!("warning: {warning}")));
+            } else {
+                self.remarks.push(warning);
+            }
         }
         // A large state takes no more than a small share of the time.
         kept.next = Instant::now() + kept.every.max(kept.asked.elapsed() * KEEPING_SHARE);
@@ -250,7 +282,7 @@ impl Observer for Watcher<'_> {
         if let Some(picture) = &progress.picture {
             let sitting = self.sit(picture);
             self.show_picture(progress, picture, sitting);
-            return self.control();
+            return self.control(Event::Progress(progress));
         }
         let elapsed_s = self.start.elapsed().as_secs_f64();
         let of_time = self.deadline.map(|end| elapsed_s / (end - self.start).as_secs_f64());
@@ -264,11 +296,11 @@ impl Observer for Watcher<'_> {
         let bytes =
             self.forecast.bytes(progress.expected_samples.or(self.forecast.settings.max_samples));
         self.show(course + ", " + &memory(bytes), &self.values);
-        self.control()
+        self.control(Event::Progress(progress))
     }
 
-    fn checkpoint(&mut self, _estimates: &Estimates) -> Control {
-        self.control()
+    fn checkpoint(&mut self, estimates: &Estimates) -> Control {
+        self.control(Event::Checkpoint(estimates))
     }
 }
 

@@ -127,7 +127,9 @@ impl MeshBuilder {
         material: u32,
         corners: [DVec3; 3],
     ) -> Result<(), TriangleError> {
-        if !corners.iter().all(|corner| corner.abs().max_element() <= MAX_COORDINATE_M) {
+        // The largest of some elements need not be one that is not a number.
+        let most = DVec3::splat(MAX_COORDINATE_M);
+        if !corners.iter().all(|corner| corner.abs().cmple(most).all()) {
             return Err(TriangleError::NotFinite);
         }
         if self.total >= MAX_TRIANGLES as u64 {
@@ -208,7 +210,9 @@ mod tests {
         builder.triangle(object, material, [DVec3::ZERO, DVec3::X, DVec3::X]).unwrap();
         builder.triangle(object, material, [DVec3::ZERO, DVec3::X, DVec3::Y * 1e-9]).unwrap();
         assert_eq!((builder.triangles, builder.dropped), (3, 2));
-        let far = builder.triangle(object, material, [DVec3::ZERO, DVec3::X, DVec3::NAN]);
-        assert_eq!(far, Err(TriangleError::NotFinite));
+        for far in [DVec3::NAN, DVec3::new(1.0, f64::NAN, 0.0), DVec3::X * -2e9] {
+            let error = builder.triangle(object, material, [DVec3::ZERO, DVec3::X, far]);
+            assert_eq!(error, Err(TriangleError::NotFinite));
+        }
     }
 }

@@ -1,8 +1,9 @@
-//! Geometry files: OBJ and glTF bytes to one mesh with shared vertices.
+//! Geometry: OBJ and glTF files and arrays to one mesh with shared vertices.
 //!
 //! Each reader hands its triangles to one [`MeshBuilder`], which turns them up, merges vertices at
 //! exactly the same position, and counts the degenerate triangles that it drops.
 
+mod arrays;
 mod builder;
 mod copies;
 mod corner_grid;
@@ -51,6 +52,12 @@ pub(crate) fn read(
 ) -> Result<Geometry, LoadError> {
     let mut builder = MeshBuilder::new(project.up.unwrap_or(UpAxis::Z), project.unit.metres());
     for file in &project.geometry {
+        if let Some(triangles) = files.triangles(&file.value) {
+            builder.start_file(&file.value);
+            arrays::read(&triangles, &mut builder)?;
+            builder.finish_file(warnings)?;
+            continue;
+        }
         let extension = file.value.rsplit_once('.').map(|(_, end)| end.to_ascii_lowercase());
         let is_obj = match extension.as_deref() {
             Some("obj") => true,

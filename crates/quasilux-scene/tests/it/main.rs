@@ -1,5 +1,6 @@
 //! Projects loaded from maps of files: what is right, what is refused, and where.
 
+mod arrays;
 mod attacks;
 mod bad_input;
 mod cameras;

@@ -1,6 +1,6 @@
 //! `quasilux resume`: a run goes on from its checkpoint.
 
-use super::run::{Folder, count, work};
+use super::run::{Finished, Folder, count, work};
 use crate::arguments::ResumeArguments;
 use crate::checkpoint::{self, Checkpoint, CheckpointWriter, Heading, Latest, RunPaths};
 use crate::door::Door;
@@ -8,56 +8,106 @@ use crate::exit::{CliError, Exit};
 use crate::forecast::Forecast;
 use crate::print::tell;
 use crate::project::Project;
-use crate::watcher::Watcher;
+use crate::watcher::{Listener, Watcher};
 use crate::{interrupt, project};
-use quasilux_transport::PreparedScene;
-use std::path::PathBuf;
+use quasilux_transport::{PreparedScene, Settings};
+use std::path::{Path, PathBuf};
+
+/// A run that was kept, ready to go on.
+pub(crate) struct KeptRun<'a> {
+    arguments: &'a ResumeArguments,
+    /// What messages call the checkpoint.
+    name: String,
+    /// The project file.
+    file: PathBuf,
+    heading: Heading,
+    state: Vec<u8>,
+    settings: Settings,
+    was_damaged: bool,
+}
 
 /// Goes on with a run, and ends with the bits that it would have had.
 pub(crate) fn resume(arguments: &ResumeArguments) -> Result<Exit, CliError> {
     interrupt::listen()?;
-    let Latest { checkpoint, warning } = checkpoint::read(&arguments.checkpoint)?;
-    let Checkpoint { heading, state } = checkpoint;
-    if let (Some(warning), false) = (&warning, arguments.output.quiet) {
+    let latest = checkpoint::read(&arguments.checkpoint)?;
+    if let (Some(warning), false) = (&latest.warning, arguments.output.quiet) {
         tell(format_args!("warning: {warning}"));
     }
-    let name = arguments.checkpoint.display().to_string();
-    heading.expect_build().map_err(|what| CliError::new(format!("{name}: {what}")))?;
-    let file = project_file(arguments, &heading);
+    let file = project_file(arguments, &latest.checkpoint.heading)?;
     let project = project::open(&file)?;
-    if let Some(change) = project.identity.difference(&heading.scene) {
-        let project = &project.name;
-        return Err(CliError::new(format!("{name}: {project} is another scene now: {change}")));
-    }
-    let settings = project::kept_settings(&heading.settings, &name, &project)?;
-    let scene = &project.loaded.scene;
-    if settings.sequence.points().is_some() && arguments.time.is_some() {
-        return Err(CliError::new(format!(
-            "{name}: {} needs all of its points: --time cannot end the run before",
-            settings.sequence.name()
-        )));
-    }
-    let folder = Folder::prepare(&arguments.output, heading.folder().to_owned(), &project)?;
-    let kept = RunPaths { file: &file, out: folder.path(), settings: &settings };
-    let writer =
-        CheckpointWriter::new(&arguments.checkpoint, &project, kept)?.going_on(warning.is_some());
-    let threads = count(arguments.work.threads);
-    let forecast = Forecast::new(scene, &settings, threads);
-    let watcher = Watcher::new(forecast, arguments.time, arguments.output.quiet)
-        .going_on(heading.seconds)
-        .checkpoints(writer, arguments.checkpoint_every);
-    let go_on = |prepared: &PreparedScene<'_>, watcher: &mut Watcher<'_>| {
-        let estimates = quasilux_transport::resume(prepared.clone(), &settings, &state, watcher);
-        estimates.map(Some).map_err(|error| CliError::new(format!("{name}: {error}")))
-    };
-    let door = Door { strict: false, announces: !arguments.output.quiet };
-    let finished = work(&project, door, watcher, go_on)?;
-    if !arguments.output.quiet && quasilux_transport::is_over(&state) {
-        tell(format_args!("note: {name}: {}", over(&project)));
+    let kept = KeptRun::new(arguments, latest, file, &project)?;
+    let folder = Folder::prepare(&arguments.output, kept.out().to_owned(), &project)?;
+    let finished = kept.go_on(&project, folder.path(), arguments.output.quiet, None)?;
+    if let (Some(note), false) = (kept.note(&project), arguments.output.quiet) {
+        tell(format_args!("note: {note}"));
     }
     match finished {
         Some(finished) => folder.deliver(&finished),
         None => Ok(Exit::Interrupted),
+    }
+}
+
+impl<'a> KeptRun<'a> {
+    /// Of a project, which has to be the one that the run was begun with.
+    pub(crate) fn new(
+        arguments: &'a ResumeArguments,
+        latest: Latest,
+        file: PathBuf,
+        project: &Project,
+    ) -> Result<Self, CliError> {
+        let Latest { checkpoint, warning } = latest;
+        let Checkpoint { heading, state } = checkpoint;
+        let name = arguments.checkpoint.display().to_string();
+        let refuse = |message: String| Err(CliError::in_file(&name, None, message));
+        if let Some(change) = project.identity.difference(&heading.scene) {
+            return refuse(format!("{} is another scene now: {change}", project.name));
+        }
+        let settings = project::kept_settings(&heading.settings, &name, project)?;
+        if settings.sequence.points().is_some() && arguments.time.is_some() {
+            let sequence = settings.sequence.name();
+            return refuse(format!(
+                "{sequence} needs all of its points: --time cannot end the run before"
+            ));
+        }
+        let was_damaged = warning.is_some();
+        Ok(Self { arguments, name, file, heading, state, settings, was_damaged })
+    }
+
+    /// Goes on, keeping itself where it was kept; `out` is where its results go.
+    pub(crate) fn go_on(
+        &self,
+        project: &Project,
+        out: &Path,
+        quiet: bool,
+        listener: Option<Listener<'_>>,
+    ) -> Result<Option<Finished>, CliError> {
+        let Self { arguments, settings, .. } = self;
+        let kept = RunPaths { file: &self.file, out, settings };
+        let writer = CheckpointWriter::new(&arguments.checkpoint, project, kept)?;
+        let threads = count(arguments.work.threads);
+        let forecast = Forecast::new(&project.loaded.scene, settings, threads);
+        let watcher = Watcher::new(forecast, arguments.time, quiet)
+            .listened_to(listener)
+            .going_on(self.heading.seconds)
+            .checkpoints(writer.going_on(self.was_damaged), arguments.checkpoint_every);
+        let go_on = |prepared: &PreparedScene<'_>, watcher: &mut Watcher<'_>| {
+            let scene = prepared.clone();
+            let estimates = quasilux_transport::resume(scene, settings, &self.state, watcher);
+            estimates.map(Some).map_err(|error| CliError::in_file(&self.name, None, error))
+        };
+        let door = Door { strict: false, announces: !quiet };
+        work(project, door, watcher, go_on)
+    }
+
+    /// Where its results go.
+    pub(crate) fn out(&self) -> &Path {
+        self.heading.folder()
+    }
+
+    /// What is to be said of a run whose sensors had all they get.
+    pub(crate) fn note(&self, project: &Project) -> Option<String> {
+        let is_over = quasilux_transport::is_over(&self.state);
+        is_over.then(|| format!("{}: {}", self.name, over(project)))
     }
 }
 
@@ -70,9 +120,15 @@ fn over(project: &Project) -> &'static str {
     }
 }
 
-/// Where the project is: as told, or as it was given to the run, here or there.
-fn project_file(arguments: &ResumeArguments, heading: &Heading) -> PathBuf {
+/// Where the project of this program's run is: as told, or as it was given to the run, here or
+/// there.
+pub(crate) fn project_file(
+    arguments: &ResumeArguments,
+    heading: &Heading,
+) -> Result<PathBuf, CliError> {
+    let name = arguments.checkpoint.display();
+    heading.expect_build().map_err(|what| CliError::in_file(name, None, what))?;
     let known = [&heading.project, &heading.project_absolute];
     let found = known.into_iter().find(|path| path.is_file()).unwrap_or(&heading.project);
-    arguments.project.clone().unwrap_or_else(|| found.clone())
+    Ok(arguments.project.clone().unwrap_or_else(|| found.clone()))
 }

@@ -3,7 +3,7 @@
 use crate::arguments::{OutputArguments, RunArguments, SimulationArguments};
 use crate::build::{BUILD, VERSION};
 use crate::checkpoint::{CheckpointWriter, RunPaths};
-use crate::door::{Admitted, Door};
+use crate::door::{Admitted, Door, prepare};
 use crate::exit::{CliError, Exit};
 use crate::forecast::Forecast;
 use crate::plan::Plan;
@@ -21,10 +21,23 @@ use std::path::{Path, PathBuf};
 /// Estimates, or that there are none yet.
 pub(crate) type Outcome = Result<Option<Estimates>, CliError>;
 
+/// Work on a scene under a watcher's eyes.
+pub(crate) type Job<'j> =
+    Box<dyn FnOnce(&PreparedScene<'_>, &mut Watcher<'_>) -> Outcome + Send + 'j>;
+
 /// A finished simulation.
-pub(crate) struct Finished {
-    pub(crate) report: Report,
-    pub(crate) exit: Exit,
+#[derive(Clone, Debug)]
+pub struct Finished {
+    /// Its results.
+    pub report: Report,
+    /// What they are made of: the figures of each replicate.
+    pub estimates: Estimates,
+    /// Why it was told to stop, if it was.
+    pub stopped: Option<Stopped>,
+    /// What nobody was told while it went.
+    pub remarks: Vec<String>,
+    /// How the program would end after it.
+    pub exit: Exit,
 }
 
 /// Runs a project, writes its results and prints what was asked for.
@@ -126,7 +139,8 @@ pub(crate) fn work(
     let forecast = watcher.forecast;
     let Forecast { scene, settings, threads, .. } = forecast;
     let pool = pool(threads)?;
-    let Admitted { prepared, mut findings } = pool.install(|| door.admit(project, &watcher))?;
+    let admitted = pool.install(|| prepare(project));
+    let Admitted { prepared, mut findings } = door.admit(admitted, &watcher)?;
     let outcome = pool.install(|| job(&prepared, &mut watcher));
     let seconds = watcher.finish();
     let Some(estimates) = outcome? else { return Ok(None) };
@@ -151,7 +165,8 @@ pub(crate) fn work(
         _ => Exit::Limited,
     };
     let report = Report::new(scene, settings, &estimates, facts);
-    Ok(Some(Finished { report, exit }))
+    let Watcher { stopped, remarks, .. } = watcher;
+    Ok(Some(Finished { report, estimates, stopped, remarks, exit }))
 }
 
 /// Why no light was found at some sensor points.
@@ -215,9 +230,7 @@ impl<'a> Folder<'a> {
         }
         let path = output.out.clone().unwrap_or(otherwise);
         results::prepare(&path)?;
-        let file = Path::new(&project.name);
-        let title = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        Ok(Self { path, output, scene: &project.loaded.scene, title })
+        Ok(Self { path, output, scene: &project.loaded.scene, title: project.title().to_owned() })
     }
 
     pub(crate) fn path(&self) -> &Path {
@@ -226,7 +239,7 @@ impl<'a> Folder<'a> {
 
     /// Writes results and prints what was asked for.
     pub(crate) fn deliver(&self, finished: &Finished) -> Result<Exit, CliError> {
-        let Finished { report, exit } = finished;
+        let Finished { report, exit, .. } = finished;
         let of = PictureOf { scene: self.scene, title: &self.title };
         results::write(&self.path, report, of)?;
         if self.output.json {

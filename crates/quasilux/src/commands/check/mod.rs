@@ -9,6 +9,7 @@ use crate::arguments::CheckArguments;
 use crate::door::{Admitted, prepare};
 use crate::exit::{CliError, Exit};
 use crate::print::print;
+use crate::project::Project;
 use crate::{project, results};
 use quasilux_drawing::picture::PlanMark;
 use quasilux_inspection::Finding;
@@ -24,7 +25,7 @@ pub(crate) fn check(arguments: &CheckArguments) -> Result<Exit, CliError> {
     results::write_atomic(&folder.join("plan.png"), &plan.to_png(1.0))?;
     results::write_atomic(&folder.join("plan.svg"), plan.to_svg().as_bytes())?;
     if arguments.json {
-        print(&document::document(&project, &findings))?;
+        print(&document(&project, &findings))?;
     } else {
         if !arguments.quiet {
             print(&summary::summary(&project))?;
@@ -37,8 +38,18 @@ pub(crate) fn check(arguments: &CheckArguments) -> Result<Exit, CliError> {
     Ok(if arguments.strict && !findings.is_empty() { Exit::CheckFailed } else { Exit::Done })
 }
 
+/// The document for programs.
+pub(crate) fn document(project: &Project, findings: &[Finding]) -> String {
+    document::document(project, findings)
+}
+
+/// What was understood, and what is odd, for people.
+pub(crate) fn text(project: &Project, findings: &[Finding]) -> String {
+    summary::summary(project) + &summary::oddities(project, findings)
+}
+
 /// A remark for each finding, numbered as in the list.
-fn marks(findings: &[Finding]) -> Vec<PlanMark> {
+pub(crate) fn marks(findings: &[Finding]) -> Vec<PlanMark> {
     let mark = |(number, finding): (usize, &Finding)| {
         let text = format!("{}; {}", finding.message, finding.cure);
         PlanMark { position_m: finding.position_m, number: number as u32 + 1, text }
