@@ -6,6 +6,10 @@
 //! widest instruction set of the machine and compiles the loop for each. Integers and one exact
 //! subtraction: the result is the same in all.
 
+mod rows;
+
+pub use rows::RowRandomizer;
+
 use fearless_simd::{Level, Simd, dispatch};
 
 use crate::point_set::{Generator, PointSet};
@@ -81,6 +85,33 @@ impl PointSet {
                 }
             }
         }
+    }
+
+    /// Coordinates from binary digits of one's own, the first (1/2) in bit 0, randomised as those of
+    /// a dimension of this point set are: for digital sequences in base 2 that are not among
+    /// [`Sequence`](crate::Sequence), and for Sobol' past 1024 dimensions without copies.
+    ///
+    /// Each coordinate is made from one element of `digits`, exclusive or `common`: matrices are
+    /// linear, so the digits of an aligned block of indices differ from those of its first by a
+    /// table. As many as the shorter slice has.
+    ///
+    /// ```
+    /// use quasilux_sampling::{PointSet, Randomization, Sequence, sobol_columns, stream_key};
+    /// let points = PointSet::new(Sequence::Sobol, Randomization::Owen, stream_key(1, 0, 0));
+    /// let columns = sobol_columns(0, &[1]);
+    /// let digits = [0, columns[0], columns[1], columns[0] ^ columns[1]];
+    /// let mut coordinates = [0.0; 4];
+    /// points.randomize_digits(1, &digits, 0, &mut coordinates);
+    /// assert_eq!(coordinates, [0, 1, 2, 3].map(|index| points.coordinate(index, 1)));
+    /// ```
+    pub fn randomize_digits(
+        &self,
+        dimension: u32,
+        digits: &[u64],
+        common: u64,
+        coordinates: &mut [f64],
+    ) {
+        self.randomize_block(Level::new(), digits, common, dimension, coordinates);
     }
 
     /// Whether [`fill_at`](Self::fill_at) is faster than one coordinate at a time, so that some

@@ -105,6 +105,7 @@ mod unit;
 mod variation;
 pub mod warp;
 
+pub use block::RowRandomizer;
 pub use discrete::Discrete;
 pub use discrete_sample::{BoolSample, DiscreteSample, choose_bool, choose_weights};
 pub use groups::{CoherentGroups, Group, SharedDigits};
@@ -114,4 +115,4 @@ pub use parse_name_error::ParseNameError;
 pub use point_set::PointSet;
 pub use randomization::Randomization;
 pub use sampler::Sampler;
-pub use sequence::{Sequence, radical_inverse};
+pub use sequence::{Sequence, radical_inverse, sobol_columns};

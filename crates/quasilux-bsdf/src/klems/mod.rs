@@ -75,6 +75,12 @@ impl KlemsTable {
         &self.exit
     }
 
+    /// f in sr^-1: all exit patches for the first incident patch, then for the next.
+    #[must_use]
+    pub fn values(&self) -> &[f64] {
+        &self.values
+    }
+
     /// The adjoint, for light that travels in reverse, from the other side: f'(wi, wo) = f(wo, wi).
     /// `None` where a patch has no counterpart at the opposite azimuth.
     pub(super) fn adjoint(&self) -> Option<Self> {

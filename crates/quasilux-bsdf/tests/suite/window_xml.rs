@@ -70,6 +70,19 @@ fn columns_and_rows_are_incident_patches() {
 }
 
 #[test]
+fn a_matrix_has_its_values_by_incident_patch() {
+    for (structure, second) in [("columns", [0.12, 0.22]), ("Rows", [0.21, 0.22])] {
+        let read = read(&file(structure, &matrix("reflection front", &places())));
+        let Distribution::Klems(table) = scattering(&read, Side::Front, ScatteringMode::Reflection)
+        else {
+            panic!("patches make a matrix");
+        };
+        assert_eq!(table.values().len(), 25);
+        assert_eq!(table.values()[5..7], second);
+    }
+}
+
+#[test]
 fn a_matrix_knows_its_albedo() {
     let read = read(&file("Columns", &matrix("Reflection Back", &places())));
     let back = scattering(&read, Side::Back, ScatteringMode::Reflection);

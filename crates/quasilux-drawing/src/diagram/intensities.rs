@@ -1,7 +1,7 @@
 //! A luminaire's intensities over gamma: the polar diagram of data sheets, and a Cartesian one.
 
 use super::curve::IntensityCurve;
-use super::legend::{self, LegendEntry};
+use super::legend::{self, LegendEntry, Rows};
 use super::polar::{Extent, Polar, Zero};
 use super::{Axis, Line, Panel, Scale};
 use crate::drawing::{Drawing, Frame};
@@ -59,7 +59,9 @@ pub fn intensities(intensities: &Intensities<'_>) -> Drawing {
         }
     };
     let title = format!("{}, {}", intensities.title, intensities.subtitle);
-    let below = HEAD_PX + height + LEGEND_PX;
+    let entries = legend_entries(curves);
+    let legend = Rows::within(width, &entries);
+    let below = HEAD_PX + height + LEGEND_PX + legend.more_px();
     let mut drawing = Drawing::new(&title, [width + 2.0 * MARGIN_PX, below + MARGIN_PX]);
     draw_head(&mut drawing, [intensities.title, intensities.subtitle], width);
     let mut x = MARGIN_PX;
@@ -71,7 +73,7 @@ pub fn intensities(intensities: &Intensities<'_>) -> Drawing {
         let size_px = panel_size(height - top - bottom);
         panel(curves).draw(&mut drawing, Frame { corner_px: [x + left, HEAD_PX + top], size_px });
     }
-    draw_legend(&mut drawing, curves, below - 10.0);
+    legend.draw(&mut drawing, [MARGIN_PX + 4.0, below - 10.0]);
     drawing
 }
 
@@ -98,15 +100,13 @@ pub(super) fn draw_head(drawing: &mut Drawing, [title, subtitle]: [&str; 2], wid
     }
 }
 
-pub(super) fn draw_legend<'a>(
-    drawing: &mut Drawing,
+/// The entry of each curve.
+pub(super) fn legend_entries<'a>(
     curves: impl IntoIterator<Item = &'a IntensityCurve>,
-    y: f64,
-) {
+) -> Vec<LegendEntry> {
     let entry = |curve: &IntensityCurve| LegendEntry {
         text: curve.name.clone(),
         stroke: Some(curve.stroke),
     };
-    let entries: Vec<LegendEntry> = curves.into_iter().map(entry).collect();
-    legend::draw_row(drawing, [MARGIN_PX + 4.0, y], &entries);
+    curves.into_iter().map(entry).collect()
 }

@@ -2,7 +2,8 @@
 //! side of the light up.
 
 use super::curve::IntensityCurve;
-use super::intensities::{HEAD_PX, LEGEND_PX, MARGIN_PX, draw_head, draw_legend};
+use super::intensities::{HEAD_PX, LEGEND_PX, MARGIN_PX, draw_head, legend_entries};
+use super::legend::Rows;
 use super::polar::{Polar, Zero};
 use crate::drawing::Drawing;
 use crate::style::{Anchor, Dash, GREY, Stroke, TextStyle};
@@ -41,7 +42,12 @@ pub fn lobes(title: &str, diagrams: &[LobeDiagram]) -> Drawing {
     let sizes: Vec<[f64; 2]> = polars.iter().map(Polar::size_px).collect();
     let width = sizes.iter().map(|[width, _]| width).sum::<f64>();
     let height = sizes.iter().map(|[_, height]| *height).fold(0.0, f64::max);
-    let below = HEAD_PX + TITLE_PX + height + LEGEND_PX;
+    let entries = match diagrams.first() {
+        Some(diagram) => legend_entries(diagram.lobes.iter().map(|lobe| &lobe.curve)),
+        None => vec![],
+    };
+    let legend = Rows::within(width, &entries);
+    let below = HEAD_PX + TITLE_PX + height + LEGEND_PX + legend.more_px();
     let size_px = [width.max(1.0) + 2.0 * MARGIN_PX, below + MARGIN_PX];
     let mut drawing = Drawing::new(&format!("{title}: {SUBTITLE}"), size_px);
     draw_head(&mut drawing, [title, SUBTITLE], width);
@@ -53,9 +59,7 @@ pub fn lobes(title: &str, diagrams: &[LobeDiagram]) -> Drawing {
         polar.draw(&mut drawing, [x, top]);
         x += width;
     }
-    if let Some(diagram) = diagrams.first() {
-        draw_legend(&mut drawing, diagram.lobes.iter().map(|lobe| &lobe.curve), below - 10.0);
-    }
+    legend.draw(&mut drawing, [MARGIN_PX + 4.0, below - 10.0]);
     drawing
 }
 

@@ -28,6 +28,7 @@ pub use scatter::{Scatter, scatter, scatters};
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::drawing::Shape;
     use crate::style::{Dash, PALETTE, Stroke};
 
     /// Every element is closed in order, every attribute is quoted, and no number is missing: what
@@ -96,6 +97,43 @@ mod tests {
                     );
                 }
             }
+        }
+    }
+
+    /// What a legend needs more than the sheet is wide goes into further rows, for which there is
+    /// room.
+    #[test]
+    fn a_legend_stays_on_its_sheet() {
+        let curve = |number: usize| IntensityCurve {
+            name: format!("C{number}.25\u{2013}C{}.25", number + 180),
+            points: vec![[-180.0, 1.0], [180.0, 1.0]],
+            stroke: Stroke::solid(PALETTE[number % PALETTE.len()], 2.0),
+        };
+        let entries_at = |count: usize| {
+            let curves: Vec<IntensityCurve> = (0..count).map(curve).collect();
+            let drawing = intensities(&Intensities {
+                title: "",
+                subtitle: "",
+                curves: &curves,
+                per_klm: None,
+                sides: ["", ""],
+                diagram: Diagram::Polar,
+            });
+            let is_entry = |text: &str| text.contains(".25");
+            let places = drawing.shapes.iter().filter_map(|shape| match shape {
+                Shape::Text { place_px, text, .. } if is_entry(text) => Some(*place_px),
+                _ => None,
+            });
+            (places.collect::<Vec<_>>(), drawing.size_px)
+        };
+        let (one_row, [_, height]) = entries_at(3);
+        assert!(one_row.iter().all(|[_, y]| *y == one_row[0][1]));
+        let (places, size_px) = entries_at(10);
+        assert_eq!(places.len(), 10);
+        assert_eq!(size_px[1], height + 3.0 * (places[3][1] - places[0][1]));
+        for [x, y] in places {
+            assert!(x + crate::text::width_px("C9.25\u{2013}C189.25", 12.0) < size_px[0], "{x}");
+            assert!(y < size_px[1] - 10.0, "{y}");
         }
     }
 

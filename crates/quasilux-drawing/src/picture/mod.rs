@@ -13,6 +13,7 @@ mod colour_map;
 mod contour;
 mod decades;
 mod extremes;
+mod false_colours;
 mod frame;
 mod grid;
 mod image;
@@ -31,6 +32,7 @@ mod window;
 
 pub use caption::Caption;
 pub use cells::{Cell, GridPicture, Surroundings};
+pub use false_colours::{ContourLevel, FalseColourScale, false_colours};
 pub use grid::grid;
 pub use image::Image;
 pub use luminance::{LuminancePicture, luminance};

@@ -122,6 +122,12 @@ impl ValueScale {
         colour_map::colour(self.share(value))
     }
 
+    /// The values at both ends.
+    pub(crate) fn ends(&self) -> [f64; 2] {
+        let ends = [self.low, self.high];
+        if self.is_logarithmic { ends.map(libm::exp10) } else { ends }
+    }
+
     /// Whether equal ratios have equal distances.
     pub(crate) fn is_logarithmic(&self) -> bool {
         self.is_logarithmic

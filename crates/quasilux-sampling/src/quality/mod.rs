@@ -22,7 +22,10 @@ pub mod slope;
 pub mod star;
 
 pub use cells::{CellCounts, cell_counts};
-pub use discrepancy::{L2Measure, l2_discrepancy, squared_l2_discrepancy};
+pub use discrepancy::{
+    DiscrepancyTerms, Exchange, L2Measure, change_by_exchange, discrepancy_terms, l2_discrepancy,
+    squared_l2_discrepancy,
+};
 pub use integrands::{Integrand, Roughness};
 pub use pairs::{PairMeasure, PairQuality, worst_pairs};
 pub use points_view::PointsView;

@@ -4,11 +4,13 @@ mod cranley_patterson;
 mod digital_shift;
 mod digits;
 mod owen;
+mod owen_lanes;
 
 pub(crate) use cranley_patterson::{rotate_unit, rotate_word};
 pub(crate) use digital_shift::digital_shift;
 pub(crate) use digits::{nested_radical_inverse, shifted_radical_inverse};
 pub(crate) use owen::{OwenKey, shuffle_index};
+pub(crate) use owen_lanes::OwenLanes;
 
 use crate::parse_name_error::ParseNameError;
 use std::fmt;

@@ -19,8 +19,8 @@ use crate::hash::{GOLDEN, mix};
 /// One scramble: a uniform random element of a family close to all nested flips.
 #[derive(Clone, Copy)]
 pub(crate) struct OwenKey {
-    first: u64,
-    second: u64,
+    pub(super) first: u64,
+    pub(super) second: u64,
 }
 
 impl OwenKey {
@@ -58,7 +58,7 @@ impl OwenKey {
 
 /// An even multiplier of 32 bits: vector units multiply by it at two thirds of the cost.
 #[inline(always)]
-const fn short_even(word: u64) -> u64 {
+pub(super) const fn short_even(word: u64) -> u64 {
     word & 0xffff_fffe
 }
 

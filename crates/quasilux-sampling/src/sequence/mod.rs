@@ -13,6 +13,7 @@ pub(crate) use binary::BinaryMatrices;
 pub(crate) use independent::independent_digits;
 pub use radical_inverse::radical_inverse;
 pub(crate) use radix::Radix;
+pub use sobol::sobol_columns;
 
 use crate::parse_name_error::ParseNameError;
 use std::fmt;

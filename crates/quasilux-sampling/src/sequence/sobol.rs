@@ -23,32 +23,41 @@ pub(crate) const DIMENSIONS: u32 = 1024;
 pub(crate) fn matrices() -> &'static BinaryMatrices {
     static MATRICES: LazyLock<BinaryMatrices> = LazyLock::new(|| {
         let lines = DIRECTION_NUMBERS.lines().filter(|line| !line.starts_with('#'));
-        let columns = std::iter::once(identity_columns()).chain(lines.map(columns));
-        let matrices = BinaryMatrices::new(columns.map(|columns| columns.map(u64::reverse_bits)));
+        let first = sobol_columns(0, &[1; 64]);
+        let matrices = BinaryMatrices::new(std::iter::once(first).chain(lines.map(columns)));
         assert_eq!(matrices.dimensions(), DIMENSIONS, "rows of the direction numbers");
         matrices
     });
     &MATRICES
 }
 
-/// The first dimension: the radical inverse in base 2.
-fn identity_columns() -> [u64; 64] {
-    std::array::from_fn(|k| 1 << (63 - k))
+/// The generator matrix of one dimension of a Sobol' sequence as its 64 columns, first row (1/2) in
+/// bit 0: the digits of the indices 1, 2, 4, ..
+///
+/// `initial` are the odd numbers m_1 .. m_s, m_k below 2^k, and `inner_coefficients` the bits a_1
+/// .. a_(s-1) of the primitive polynomial x^s + a_1 x^(s-1) + .. + 1, a_1 the highest. The first
+/// dimension, the radical inverse in base 2, is that of 64 ones.
+///
+/// ```
+/// use quasilux_sampling::{PointSet, Randomization, Sequence, sobol_columns};
+/// let points = PointSet::new(Sequence::Sobol, Randomization::None, 0);
+/// // Joe and Kuo's third dimension, x^2 + x + 1: point 2 is at 1/4 + 1/2.
+/// let columns = sobol_columns(1, &[1, 3]);
+/// assert_eq!(columns[1], 0b11);
+/// assert_eq!(points.coordinate(2, 2), 0.75);
+/// ```
+#[must_use]
+pub fn sobol_columns(inner_coefficients: u64, initial: &[u64]) -> [u64; 64] {
+    columns_from_the_top(inner_coefficients, initial).map(u64::reverse_bits)
 }
 
-/// The 64 columns of a generator matrix, first row in the top bit, from one line `d s a m_1 ..
-/// m_s`: v_k = m_k 2^(64 - k) for k <= s, and then v_k = a_1 v_(k-1) + .. + a_(s-1) v_(k-s+1) +
-/// v_(k-s) + v_(k-s) / 2^s with carry-less sums.
-fn columns(line: &str) -> [u64; 64] {
-    let mut numbers =
-        line.split(' ').map(|field| field.parse::<u64>().expect("direction numbers are integers"));
-    let mut next = || numbers.next().expect("a line of direction numbers is d s a m_1 .. m_s");
-    let _dimension = next();
-    let degree = next() as usize;
-    let inner_coefficients = next();
+/// The columns with the first row in the top bit: v_k = m_k 2^(64 - k) for k <= s, and then v_k =
+/// a_1 v_(k-1) + .. + a_(s-1) v_(k-s+1) + v_(k-s) + v_(k-s) / 2^s with carry-less sums.
+fn columns_from_the_top(inner_coefficients: u64, initial: &[u64]) -> [u64; 64] {
+    let degree = initial.len();
     let mut columns = [0_u64; 64];
-    for (k, column) in columns.iter_mut().enumerate().take(degree) {
-        *column = next() << (63 - k);
+    for (k, (column, number)) in columns.iter_mut().zip(initial).enumerate() {
+        *column = number << (63 - k);
     }
     for k in degree..64 {
         let mut column = columns[k - degree] ^ (columns[k - degree] >> degree);
@@ -62,14 +71,26 @@ fn columns(line: &str) -> [u64; 64] {
     columns
 }
 
+/// The columns of a line `d s a m_1 .. m_s`.
+fn columns(line: &str) -> [u64; 64] {
+    let numbers: Vec<u64> = line
+        .split(' ')
+        .map(|field| field.parse().expect("direction numbers are integers"))
+        .collect();
+    let [_dimension, degree, inner_coefficients, initial @ ..] = &*numbers else {
+        panic!("a line of direction numbers is d s a m_1 .. m_s");
+    };
+    assert_eq!(initial.len() as u64, *degree, "numbers m_1 .. m_s");
+    sobol_columns(*inner_coefficients, initial)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     /// The definition, one bit at a time.
     fn slow_digits(columns: &[u64; 64], index: u64) -> u64 {
-        let product = (0..64).filter(|k| (index >> k) & 1 == 1).fold(0, |sum, k| sum ^ columns[k]);
-        product.reverse_bits()
+        (0..64).filter(|k| (index >> k) & 1 == 1).fold(0, |sum, k| sum ^ columns[k])
     }
 
     #[test]
@@ -90,7 +111,7 @@ mod tests {
     fn matrices_are_unit_upper_triangular() {
         for line in DIRECTION_NUMBERS.lines().filter(|line| !line.starts_with('#')) {
             for (k, column) in columns(line).iter().enumerate() {
-                assert_eq!(column.trailing_zeros() as usize, 63 - k, "column {k} of line {line}");
+                assert_eq!(column.ilog2() as usize, k, "column {k} of line {line}");
             }
         }
     }

@@ -1,4 +1,4 @@
-//! Maps from the unit square, each as sample, pdf and invert.
+//! Maps from the unit square and, one of them, the unit interval, each as sample, pdf and invert.
 //!
 //! Directions are unit vectors in a local frame with z up. All maps are continuous, and send an
 //! even point set to an even one.
@@ -11,6 +11,7 @@
 mod disk;
 mod hemisphere;
 mod linear_triangle;
+mod normal;
 mod sine;
 mod sphere;
 mod triangle;
@@ -21,5 +22,6 @@ pub use hemisphere::{
     pdf_uniform_hemisphere, sample_cosine_hemisphere, sample_uniform_hemisphere,
 };
 pub use linear_triangle::{invert_linear_triangle, pdf_linear_triangle, sample_linear_triangle};
+pub use normal::{invert_normal, pdf_normal, sample_normal};
 pub use sphere::{invert_uniform_sphere, pdf_uniform_sphere, sample_uniform_sphere};
 pub use triangle::{invert_triangle, pdf_triangle, sample_triangle};

@@ -1,8 +1,8 @@
 //! Quality measures: against scipy, brute force and closed forms.
 
 use quasilux_sampling::quality::{
-    L2Measure, PairMeasure, PointsView, cell_counts, l2_discrepancy, squared_l2_discrepancy,
-    star_discrepancy, worst_pairs,
+    Exchange, L2Measure, PairMeasure, PointsView, cell_counts, change_by_exchange,
+    discrepancy_terms, l2_discrepancy, squared_l2_discrepancy, star_discrepancy, worst_pairs,
 };
 use quasilux_sampling::{PointSet, Randomization, Sequence};
 
@@ -36,6 +36,46 @@ fn views_are_whole_points_of_the_unit_cube() {
 #[should_panic(expected = "0 cells a side")]
 fn pairs_need_cells() {
     let _ = worst_pairs(view(&[0.5, 0.5], 2), PairMeasure::EmptyCells(0));
+}
+
+const MEASURES: [L2Measure; 4] =
+    [L2Measure::Star, L2Measure::Centred, L2Measure::WrapAround, L2Measure::Mixture];
+
+#[test]
+fn terms_of_ranges_add_up() {
+    let coordinates = first(&random(12), 50, 3);
+    let points = view(&coordinates, 3);
+    for measure in MEASURES {
+        let whole = discrepancy_terms(points, measure, 0..50);
+        let parts =
+            [0..7, 7..7, 7..31, 31..50].map(|range| discrepancy_terms(points, measure, range));
+        let sum = |of: fn(&quasilux_sampling::quality::DiscrepancyTerms) -> f64| -> f64 {
+            parts.iter().map(of).sum()
+        };
+        assert!((sum(|terms| terms.single) / whole.single - 1.0).abs() < 1e-14);
+        assert!((sum(|terms| terms.pairs) / whole.pairs - 1.0).abs() < 1e-14);
+        assert_eq!(whole.squared_discrepancy(50), squared_l2_discrepancy(points, measure));
+    }
+}
+
+/// Against the discrepancies before and after; with itself a point exchanges nothing, and
+/// coordinates may be at the ends, where factors of the kernels vanish.
+#[test]
+fn exchanges_change_the_discrepancy() {
+    let mut coordinates = first(&random(13), 20, 4);
+    coordinates[..8].copy_from_slice(&[0.0, 1.0, 0.5, 0.25, 1.0, 0.0, 1.0, 0.5]);
+    for measure in MEASURES {
+        let before = squared_l2_discrepancy(view(&coordinates, 4), measure);
+        for step in 0..80 {
+            let exchange = Exchange { points: [step % 20, step * 7 % 20], dimension: step % 4 };
+            let change = change_by_exchange(view(&coordinates, 4), measure, exchange);
+            let mut after = coordinates.clone();
+            let [a, b] = exchange.points.map(|point| 4 * point + exchange.dimension);
+            after.swap(a, b);
+            let difference = squared_l2_discrepancy(view(&after, 4), measure) - before;
+            assert!((change - difference).abs() < 1e-14, "{measure:?}, {exchange:?}");
+        }
+    }
 }
 
 #[test]

@@ -45,6 +45,61 @@ fn equals_scipy_for_4096_points_in_50_dimensions() {
     assert_eq!((points, hashes), (38, 50));
 }
 
+/// Digits that were made elsewhere, here read off unrandomised coordinates, are randomised as those
+/// of the sequence; `common` is added without carry.
+#[test]
+fn foreign_digits_are_randomised_like_own_ones() {
+    let plain = sobol(Randomization::None, 0);
+    for randomization in RANDOMIZATIONS {
+        let points = sobol(randomization, 21);
+        for dimension in [0, 1, 700] {
+            let digits: Vec<u64> = (100..400)
+                .map(|index| (plain.coordinate(index, dimension) * 512.0) as u64)
+                .map(|word| (word << 55).reverse_bits())
+                .collect();
+            for common in [0, 0x5a] {
+                let shifted: Vec<u64> = digits.iter().map(|digits| digits ^ common).collect();
+                let mut coordinates = [2.0; 301];
+                points.randomize_digits(dimension, &shifted, common, &mut coordinates);
+                let expected = (100..400).map(|index| points.coordinate(index, dimension));
+                assert!(coordinates[..300].iter().copied().eq(expected), "{randomization:?}");
+                assert_eq!(coordinates[300], 2.0);
+            }
+        }
+    }
+}
+
+/// Rows of any width and number equal single coordinates; more digits than places are left alone.
+#[test]
+fn foreign_digits_are_randomised_in_rows() {
+    let plain = sobol(Randomization::None, 0);
+    let digits_of = |index, dimension| {
+        let word = (plain.coordinate(index, dimension) * 4096.0) as u64;
+        (word << 52).reverse_bits()
+    };
+    for randomization in RANDOMIZATIONS {
+        let points = sobol(randomization, 22);
+        for width in [1, 2, 3, 5, 8, 12, 40, 67] {
+            let randomizer = points.row_randomizer(9, width);
+            let dimensions = 9..9 + width as u32;
+            for count in [0, 1, 2, 7, 8, 60, 131] {
+                let common: Vec<u64> = dimensions.clone().map(|d| digits_of(512, d)).collect();
+                let point = |index| dimensions.clone().map(move |d| digits_of(index, d));
+                let digits: Vec<u64> = (0..count + 3).flat_map(point).collect();
+                let mut coordinates = vec![2.0; count as usize * width];
+                randomizer.randomize(&digits, &common, &mut coordinates);
+                let row = |index| {
+                    let points = &points;
+                    dimensions.clone().map(move |d| points.coordinate(512 + index, d))
+                };
+                let expected = (0..count).flat_map(row);
+                assert!(coordinates.iter().copied().eq(expected), "{randomization:?}, {width}");
+            }
+        }
+        points.row_randomizer(0, 0).randomize(&[1], &[], &mut [2.0]);
+    }
+}
+
 /// Each elementary interval of 2^-a by 2^-(m-a) holds one point of each aligned block of 2^m: (0,
 /// m, 2)-nets.
 #[test]

@@ -3,10 +3,10 @@
 use std::f64::consts::{FRAC_1_PI, TAU};
 
 use quasilux_sampling::warp::{
-    invert_cosine_hemisphere, invert_disk, invert_triangle, invert_uniform_hemisphere,
-    invert_uniform_sphere, pdf_cosine_hemisphere, pdf_disk, pdf_triangle, pdf_uniform_hemisphere,
-    pdf_uniform_sphere, sample_cosine_hemisphere, sample_disk, sample_triangle,
-    sample_uniform_hemisphere, sample_uniform_sphere,
+    invert_cosine_hemisphere, invert_disk, invert_normal, invert_triangle,
+    invert_uniform_hemisphere, invert_uniform_sphere, pdf_cosine_hemisphere, pdf_disk, pdf_normal,
+    pdf_triangle, pdf_uniform_hemisphere, pdf_uniform_sphere, sample_cosine_hemisphere,
+    sample_disk, sample_normal, sample_triangle, sample_uniform_hemisphere, sample_uniform_sphere,
 };
 
 use crate::support::{assert_uniform, cell, random};
@@ -177,6 +177,32 @@ fn maps_are_continuous() {
             }
         }
     }
+}
+
+/// The derivative of the map is 1 / pdf, and inversion undoes it, also far out; the quantiles are
+/// those that bisection of the distribution function finds.
+#[test]
+fn normal_numbers_are_quantiles() {
+    const H: f64 = 1e-7;
+    let points = random(6);
+    for index in 0..10_000 {
+        let u = 1e-4 + 0.9998 * points.coordinate(index, 0);
+        let slope = (sample_normal(u + H) - sample_normal(u - H)) / (2.0 * H);
+        let product = slope * pdf_normal(sample_normal(u));
+        assert!((product - 1.0).abs() < 1e-5, "{u}: {product}");
+    }
+    let small = (1..54).map(|k| libm::ldexp(1.0, -k));
+    let both = small.flat_map(|u| [u, 1.0 - u]);
+    for u in both.chain((0..10_000).map(|index| points.coordinate(index, 1))) {
+        let x = sample_normal(u);
+        assert!((invert_normal(x) - u).abs() <= 1e-13 * u, "{u} became {}", invert_normal(x));
+        let tail = u.min(1.0 - u);
+        let quantile = quasilux_stats::normal_quantile(tail);
+        assert!((x.abs() - quantile.abs()).abs() < 1e-13 * (1.0 + quantile.abs()), "{u}: {x}");
+    }
+    assert_eq!(sample_normal(0.5), 0.0);
+    assert!((-8.3..-8.2).contains(&sample_normal(0.0)));
+    assert!((8.1..8.3).contains(&sample_normal(1.0 - f64::EPSILON / 2.0)));
 }
 
 /// Outside their supports densities are 0.
