@@ -1,9 +1,9 @@
 //! The project's own commands: `cargo xtask help` lists them.
 //!
-//! [`steps`] is the test command, [`examples`], [`cluster`] and [`documents`] its last steps,
-//! [`office`] the generator behind `examples/office/`, [`cie171`] and [`octant`] those of cases in
-//! `validation/`, [`experiments`] that of `docs/experiments.md`. The rules that no compiler checks
-//! are in `tests/architecture/`.
+//! [`steps`] is the test command, [`python`], [`examples`], [`cluster`] and [`documents`] its last
+//! steps, [`office`] the generator behind `examples/office/`, [`cie171`] and [`octant`] those of
+//! cases in `validation/`, [`experiments`] that of `docs/experiments.md`. The rules that no compiler
+//! checks are in `tests/architecture/`.
 
 mod arrows;
 mod cie171;
@@ -17,6 +17,7 @@ mod generated;
 mod octant;
 mod office;
 mod prediction;
+mod python;
 mod same_bits;
 mod steps;
 mod wrap;
@@ -35,6 +36,7 @@ cargo xtask test fuzz      the fuzz targets compile, lints included
 cargo xtask test tests     all tests of the workspace
 cargo xtask test docs      documentation, warnings denied
 cargo xtask test package   the crates to publish build from their packages
+cargo xtask test python    the Python package: wheel, tests, types, documentation
 cargo xtask test examples  every example runs and gives the numbers it promises
 cargo xtask test documents every command of the documentation runs and prints what it shows
 cargo xtask test deep      all tests, in variants that take long and find smaller errors

@@ -1,0 +1,52 @@
+"""A value with half the width of its confidence interval."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from typing import Any
+
+from quasilux import _native
+
+
+@dataclasses.dataclass(frozen=True)
+class Figure:
+    """A value and half the width of its confidence interval.
+
+    It can stand where a number is wanted, and prints with the digits that its interval leaves it.
+
+    Attributes
+    ----------
+    value : float
+        The estimate; not a number where it is undefined.
+    half_width : float
+        Half the width of the interval, in the unit of the value; not a number where there is no
+        interval.
+
+    Examples
+    --------
+    >>> figure = Figure(531.4812, 0.36)
+    >>> figure
+    531.5 ± 0.4
+    >>> float(figure)
+    531.4812
+    """
+
+    value: float
+    half_width: float
+
+    @classmethod
+    def _from_entry(cls, entry: dict[str, Any]) -> Figure:
+        value, half_width = entry["value"], entry["half_width"]
+        nan = math.nan
+        return cls(nan if value is None else value, nan if half_width is None else half_width)
+
+    def __float__(self) -> float:
+        return self.value
+
+    def __repr__(self) -> str:
+        known = [x if math.isfinite(x) else None for x in (self.value, self.half_width)]
+        return _native.figure_text(*known)
+
+    def __format__(self, spec: str) -> str:
+        return format(self.value, spec) if spec else repr(self)

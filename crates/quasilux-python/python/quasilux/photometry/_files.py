@@ -1,0 +1,157 @@
+"""Bytes of measurement files: where they come from, and how files are written whole."""
+
+from __future__ import annotations
+
+import contextlib
+import errno
+import os
+import secrets
+import shutil
+import stat
+from dataclasses import dataclass
+from typing import Protocol, Union
+
+from quasilux._errors import input_error
+
+
+class BinaryReader(Protocol):
+    """A file that is open for reading in binary mode."""
+
+    def read(self, size: int, /) -> bytes: ...
+
+
+Path = Union[str, "os.PathLike[str]"]
+Source = Union[str, "os.PathLike[str]", bytes, bytearray, memoryview, BinaryReader]
+
+
+@dataclass(frozen=True)
+class Contents:
+    """The bytes of a file, and what messages call it."""
+
+    data: bytes
+    file: str
+    path: str | None
+
+
+def contents(source: Source, *, name: str | None, most_bytes: int) -> Contents:
+    """Read a path, an open file or a buffer, but never more than ``most_bytes``.
+
+    Raises
+    ------
+    OSError
+        When the file cannot be read.
+    TypeError
+        When the source is none of these, or an open file is in text mode.
+    InputError
+        When there are more bytes.
+    """
+    path: str | None = None
+    if isinstance(source, bytes):
+        data, called = source, "<bytes>"
+    elif isinstance(source, (bytearray, memoryview)):
+        data, called = bytes(source), "<bytes>"
+    elif isinstance(source, (str, os.PathLike)):
+        path = os.fsdecode(source)
+        called = path
+        if "\n" in path or "\0" in path:
+            raise ValueError("found a text of several lines; expected a path, or bytes")
+        with open(path, "rb") as file:
+            data = _read(file, most_bytes)
+    elif callable(getattr(source, "read", None)):
+        called = getattr(source, "name", None)
+        called = called if isinstance(called, str) else "<file>"
+        data = _read(source, most_bytes)
+    else:
+        kind = type(source).__name__
+        raise TypeError(f"found {kind}; expected a path, bytes or a file in binary mode")
+    called = printable(name if name is not None else called)
+    if len(data) > most_bytes:
+        message = f"the file is larger than {most_bytes >> 20} MiB"
+        raise input_error(message, called)
+    return Contents(data, called, path)
+
+
+def regular_file(path: str, *, most_bytes: int) -> Contents:
+    """Read a file that another file names: no device and no pipe, which may have no end.
+
+    Raises
+    ------
+    OSError
+        When it cannot be read, is no regular file or is larger.
+    """
+    information = os.stat(path)
+    if not stat.S_ISREG(information.st_mode):
+        raise OSError(errno.EINVAL, "no regular file", path)
+    if information.st_size > most_bytes:
+        raise OSError(errno.EFBIG, f"the file is larger than {most_bytes >> 20} MiB", path)
+    with open(path, "rb") as file:
+        return Contents(_read(file, most_bytes), printable(path), path)
+
+
+def _read(file: BinaryReader, most_bytes: int) -> bytes:
+    pieces: list[bytes] = []
+    left = most_bytes + 1
+    while left > 0:
+        piece = file.read(left)
+        if isinstance(piece, str):
+            raise TypeError('found a file in text mode; expected one opened with "rb"')
+        if not piece:
+            break
+        pieces.append(piece)
+        left -= len(piece)
+    return pieces[0] if len(pieces) == 1 else b"".join(pieces)
+
+
+def write_whole(path: Path, data: bytes) -> None:
+    """Write a file that appears whole or not at all; a link to a file stays a link.
+
+    Raises
+    ------
+    OSError
+        When it cannot be written.
+    """
+    place = os.path.realpath(path)
+    if os.path.exists(place) and not os.path.isfile(place):
+        # A device or a pipe keeps its place; a folder is refused.
+        with open(place, "wb") as device:
+            device.write(data)
+        return
+    folder = os.path.dirname(place)
+    if not os.path.isdir(folder):
+        raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), folder)
+    beside = f"{place}.{secrets.token_hex(4)}.unfinished"
+    try:
+        with open(beside, "xb") as file:
+            file.write(data)
+            file.flush()
+            os.fsync(file.fileno())
+        if os.path.exists(place):
+            shutil.copymode(place, beside)
+        os.replace(beside, place)
+    except BaseException:
+        with contextlib.suppress(OSError):
+            os.unlink(beside)
+        raise
+    _sync_folder(folder)
+
+
+def _sync_folder(folder: str) -> None:
+    """Force the new name to disk, where folders can be opened."""
+    if os.name != "posix":
+        return
+    with contextlib.suppress(OSError):
+        handle = os.open(folder, os.O_RDONLY)
+        try:
+            os.fsync(handle)
+        finally:
+            os.close(handle)
+
+
+def extension(path: Path) -> str:
+    """The extension of a name in small letters, with its point."""
+    return os.path.splitext(os.fsdecode(path))[1].lower()
+
+
+def printable(text: str) -> str:
+    """Text that can be encoded: names of files may hold any bytes."""
+    return text.encode("utf-8", "replace").decode("utf-8")

@@ -1,0 +1,51 @@
+//! The false colours of pictures.
+
+use numpy::{PyArrayDyn, PyReadonlyArrayDyn};
+use pyo3::prelude::*;
+use quasilux_drawing::picture::{Cell, FalseColourScale, false_colours};
+
+/// Adds the functions to the module.
+pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_function(wrap_pyfunction!(false_colour_map, module)?)?;
+    module.add_function(wrap_pyfunction!(false_colour_scale, module)?)
+}
+
+/// Red, green and blue of so many colours from the lowest value to the highest, in [0, 1].
+#[pyfunction]
+fn false_colour_map(py: Python<'_>, count: usize) -> Bound<'_, PyArrayDyn<f64>> {
+    let colours = false_colours(count);
+    let channels = colours.as_flattened().iter().map(|channel| f64::from(*channel) / 255.0);
+    crate::outcome::array(py, channels.collect(), &[count, 3])
+}
+
+/// A scale of colours.
+#[derive(IntoPyObject)]
+struct ScaleEntry {
+    low: f64,
+    high: f64,
+    is_logarithmic: bool,
+    levels: Vec<f64>,
+    labels: Vec<String>,
+}
+
+/// The scale of values with half-widths, not a number where there are none.
+#[pyfunction]
+fn false_colour_scale(
+    values: PyReadonlyArrayDyn<'_, f64>,
+    half_widths: PyReadonlyArrayDyn<'_, f64>,
+) -> ScaleEntry {
+    let known = |x: &f64| Some(*x).filter(|x| x.is_finite());
+    let (values, half_widths) = (values.as_array(), half_widths.as_array());
+    let cells = values.iter().zip(half_widths.iter());
+    let cells: Vec<Cell> = cells
+        .map(|(value, half_width)| Cell { value: known(value), half_width: known(half_width) })
+        .collect();
+    let scale = FalseColourScale::from_cells(&cells);
+    ScaleEntry {
+        low: scale.low,
+        high: scale.high,
+        is_logarithmic: scale.is_logarithmic,
+        levels: scale.levels.iter().map(|level| level.value).collect(),
+        labels: scale.levels.into_iter().map(|level| level.label).collect(),
+    }
+}
