@@ -2,8 +2,8 @@
 //!
 //! [`steps`] is the test command, [`python`], [`examples`], [`cluster`] and [`documents`] its last
 //! steps, [`office`] the generator behind `examples/office/`, [`cie171`] and [`octant`] those of
-//! cases in `validation/`, [`experiments`] that of `docs/experiments.md`. The rules that no compiler
-//! checks are in `tests/architecture/`.
+//! cases in `validation/`, [`experiments`] that of `docs/experiments.md`. The rules that no
+//! compiler checks are in `tests/architecture/`.
 
 mod arrows;
 mod cie171;

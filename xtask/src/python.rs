@@ -105,11 +105,14 @@ impl Environment {
         command.args(["-m", module]).args(arguments.iter().map(fill));
         command.current_dir(&self.package).env("QUASILUX_ROOT", &self.root);
         command.env_remove("PYTHONPATH").env("PYTHONDONTWRITEBYTECODE", "1");
+        // What the theme says of another program.
+        command.env("NO_MKDOCS_2_WARNING", "1");
         run(&mut command)
     }
 }
 
 fn run(command: &mut Command) -> Result<(), Failure> {
-    let status = command.status().map_err(|error| format!("{command:?} does not start: {error}"))?;
+    let status =
+        command.status().map_err(|error| format!("{command:?} does not start: {error}"))?;
     if status.success() { Ok(()) } else { Err(format!("{command:?} ended with {status}")) }
 }

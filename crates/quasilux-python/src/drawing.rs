@@ -1,5 +1,6 @@
 //! The false colours of pictures.
 
+use crate::arrays::read_only;
 use numpy::{PyArrayDyn, PyReadonlyArrayDyn};
 use pyo3::prelude::*;
 use quasilux_drawing::picture::{Cell, FalseColourScale, false_colours};
@@ -15,7 +16,7 @@ pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
 fn false_colour_map(py: Python<'_>, count: usize) -> Bound<'_, PyArrayDyn<f64>> {
     let colours = false_colours(count);
     let channels = colours.as_flattened().iter().map(|channel| f64::from(*channel) / 255.0);
-    crate::outcome::array(py, channels.collect(), &[count, 3])
+    read_only(py, channels.collect(), &[count, 3])
 }
 
 /// A scale of colours.

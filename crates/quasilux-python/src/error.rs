@@ -47,12 +47,7 @@ pub(crate) fn from_command_line(error: &CliError) -> PyErr {
     Python::attach(|py| with_parts(py, error.file(), error.place(), &message))
 }
 
-fn with_parts(
-    py: Python<'_>,
-    file: Option<&str>,
-    place: Option<Position>,
-    message: &str,
-) -> PyErr {
+fn with_parts(py: Python<'_>, file: Option<&str>, place: Option<Position>, message: &str) -> PyErr {
     let text = match (file, place) {
         (Some(file), Some(place)) => format!("{file}:{place}: {message}"),
         (Some(file), None) => format!("{file}: {message}"),

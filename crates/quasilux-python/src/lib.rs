@@ -4,6 +4,7 @@
 //! Here are conversions between Python's and numpy's objects and those of the crates, and nothing
 //! that computes light.
 
+mod arrays;
 mod blocks;
 mod bsdf;
 mod command_line;

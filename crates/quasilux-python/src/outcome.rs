@@ -1,10 +1,9 @@
 //! The results of a run as arrays and files.
 
-use numpy::ndarray::{ArrayD, IxDyn};
-use numpy::{Element, PyArrayDyn, PyArrayMethods};
+use crate::arrays::read_only;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
-use quasilux::embedded::{self, Finished, Project, Stopped};
+use quasilux::embedded::{self, CliError, Finished, Project, Stopped};
 use quasilux_report::{CameraReport, SensorReport, Style, json, number, table};
 use quasilux_scene::{Grid, Quantity};
 use quasilux_transport::Pixel;
@@ -16,6 +15,14 @@ use std::sync::Arc;
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<Outcome>()?;
     module.add_function(wrap_pyfunction!(figure_text, module)?)
+}
+
+/// Why a run has no results.
+pub(crate) enum Failure {
+    /// Its options or its scene make no sense.
+    Refused(CliError),
+    /// Its workers failed.
+    Raised(PyErr),
 }
 
 /// A finished run.
@@ -50,7 +57,9 @@ impl Outcome {
     /// The rectangle of each sensor as a document in JSON; `null` where it is no grid.
     fn grids(&self) -> String {
         let sensors = self.finished.report.sensors.iter();
-        json::text(&sensors.map(|sensor| sensor.grid.as_ref().map(GridEntry::new)).collect::<Vec<_>>())
+        json::text(
+            &sensors.map(|sensor| sensor.grid.as_ref().map(GridEntry::new)).collect::<Vec<_>>(),
+        )
     }
 
     /// The table of the terminal.
@@ -86,7 +95,7 @@ impl Outcome {
         let points = || sensor.points.iter();
         let arrays = PyDict::new(py);
         let put = |name: &str, values: Vec<f64>, shape: &[usize]| {
-            arrays.set_item(name, array(py, values, shape))
+            arrays.set_item(name, read_only(py, values, shape))
         };
         let or_nan = |x: Option<f64>| x.unwrap_or(f64::NAN);
         let lx = points().map(|point| or_nan(point.illuminance_lx.value));
@@ -101,7 +110,7 @@ impl Outcome {
         let rows = &self.finished.estimates.sensors[index].replicate_lx;
         put("replicates_lx", rows.concat(), &[&[rows.len()], &shape[..]].concat())?;
         let samples = points().map(|point| point.samples).collect();
-        arrays.set_item("samples", array(py, samples, &shape))?;
+        arrays.set_item("samples", read_only(py, samples, &shape))?;
         Ok(arrays)
     }
 
@@ -119,12 +128,12 @@ impl Outcome {
         let arrays = PyDict::new(py);
         let put = |name: &str, value: &dyn Fn(&Pixel) -> f32| {
             let values: Vec<f32> = camera.pixels.iter().map(value).collect();
-            arrays.set_item(name, array(py, values, &[rows, columns]))
+            arrays.set_item(name, read_only(py, values, &[rows, columns]))
         };
         put("luminance_cd_m2", &|pixel| pixel.luminance_cd_m2)?;
         put("half_width_cd_m2", &|pixel| pixel.half_width_cd_m2.unwrap_or(f32::NAN))?;
         let rgb: Vec<f32> = camera.pixels.iter().flat_map(|pixel| pixel.rgb_cd_m2).collect();
-        arrays.set_item("rgb_cd_m2", array(py, rgb, &[rows, columns, 3]))?;
+        arrays.set_item("rgb_cd_m2", read_only(py, rgb, &[rows, columns, 3]))?;
         Ok(Some(arrays))
     }
 
@@ -182,18 +191,6 @@ fn shape(sensor: &SensorReport) -> Vec<usize> {
         Some(grid) => grid.counts.iter().rev().map(|&count| count as usize).collect(),
         None => vec![sensor.points.len()],
     }
-}
-
-/// A read-only array of these values, which are moved into it.
-pub(crate) fn array<'py, T: Element>(
-    py: Python<'py>,
-    values: Vec<T>,
-    shape: &[usize],
-) -> Bound<'py, PyArrayDyn<T>> {
-    let values = ArrayD::from_shape_vec(IxDyn(shape), values).expect("as many as the shape has");
-    let array = PyArrayDyn::from_owned_array(py, values);
-    array.readwrite().make_nonwriteable();
-    array
 }
 
 /// A value with its half-width, as many digits as it has.

@@ -2,8 +2,8 @@
 
 #![allow(clippy::disallowed_methods, reason = "runs are watched by the clock")]
 
-use crate::outcome::array;
-use crate::simulation::Failure;
+use crate::arrays::read_only;
+use crate::outcome::Failure;
 use pyo3::exceptions::PyStopIteration;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -182,8 +182,8 @@ impl Progress {
         let Standing { counts, seconds, camera, sensors } = standing;
         let (illuminance_lx, half_width_lx) = (PyDict::new(py), PyDict::new(py));
         for SensorFigures { name, shape, illuminance_lx: lx, half_width_lx: widths } in sensors {
-            illuminance_lx.set_item(&name, array(py, lx, &shape))?;
-            half_width_lx.set_item(&name, array(py, widths, &shape))?;
+            illuminance_lx.set_item(&name, read_only(py, lx, &shape))?;
+            half_width_lx.set_item(&name, read_only(py, widths, &shape))?;
         }
         Ok(Self {
             photons: counts.photons,
@@ -207,7 +207,8 @@ impl Progress {
 #[pymethods]
 impl Progress {
     fn __repr__(&self) -> String {
-        let done = self.done.map_or_else(|| "?".to_owned(), |done| format!("{:.0} %", 100.0 * done));
+        let done =
+            self.done.map_or_else(|| "?".to_owned(), |done| format!("{:.0} %", 100.0 * done));
         let width = self.largest_relative_half_width;
         let width = width.map_or_else(|| "?".to_owned(), |width| format!("{:.2} %", 100.0 * width));
         let Self { samples, rays, seconds, .. } = self;

@@ -1,7 +1,7 @@
 //! Scenes: loaded from files, or made of text and arrays.
 
+use crate::arrays::read_only;
 use crate::error::{from_command_line, input_error};
-use crate::outcome::array;
 use numpy::{PyArrayDyn, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::pybacked::PyBackedBytes;
@@ -125,20 +125,20 @@ impl Scene {
     fn vertices<'py>(&self, py: Python<'py>) -> Bound<'py, PyArrayDyn<f64>> {
         let positions = &self.model().mesh.positions;
         let numbers: Vec<f64> = positions.iter().flat_map(|vertex| vertex.to_array()).collect();
-        array(py, numbers, &[positions.len(), 3])
+        read_only(py, numbers, &[positions.len(), 3])
     }
 
     /// Indices of the vertices of each triangle.
     fn triangles<'py>(&self, py: Python<'py>) -> Bound<'py, PyArrayDyn<u32>> {
         let triangles = &self.model().mesh.triangles;
-        array(py, triangles.as_flattened().to_vec(), &[triangles.len(), 3])
+        read_only(py, triangles.as_flattened().to_vec(), &[triangles.len(), 3])
     }
 
     /// Index of the material of each triangle.
     fn material_of<'py>(&self, py: Python<'py>) -> Bound<'py, PyArrayDyn<u32>> {
         let material_of = self.model().mesh.material_of.clone();
         let shape = [material_of.len()];
-        array(py, material_of, &shape)
+        read_only(py, material_of, &shape)
     }
 
     /// Positions in m of the points of a sensor, cells of grids in rows.
@@ -194,7 +194,7 @@ impl Scene {
             SensorShape::Points(points) => vec![points.len()],
         };
         shape.push(3);
-        array(py, points.iter().flat_map(vector).collect(), &shape)
+        read_only(py, points.iter().flat_map(vector).collect(), &shape)
     }
 
     fn plan(&self) -> Result<quasilux_drawing::Drawing, embedded::CliError> {

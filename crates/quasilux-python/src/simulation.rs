@@ -2,12 +2,12 @@
 
 use crate::blocks::PythonWorkers;
 use crate::error::from_command_line;
-use crate::outcome::Outcome;
+use crate::outcome::{Failure, Outcome};
 use crate::progress::{News, Reporter, answer};
 use crate::scene::Scene;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
-use quasilux::embedded::{self, CliError, Finished, Kept, Listener, Order, Project};
+use quasilux::embedded::{self, Finished, Listener, Order, Project, ResumableRun};
 use quasilux_transport::Control;
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -28,13 +28,6 @@ const TICK: Duration = Duration::from_millis(50);
 
 /// What comes of a run.
 type Outcomes = Result<Finished, Failure>;
-
-/// Why a run has no results.
-pub(crate) enum Failure {
-    Refused(CliError),
-    /// By workers of the run.
-    Raised(PyErr),
-}
 
 /// Simulates a scene with options as on the command line. `callback` gets every
 /// [`Progress`](crate::progress::Progress) and says whether to stop.
@@ -66,7 +59,7 @@ fn resume(
     scene: Option<&Bound<'_, Scene>>,
     callback: Option<Py<PyAny>>,
 ) -> PyResult<Outcome> {
-    let kept = py.detach(|| Kept::read(&checkpoint, options));
+    let kept = py.detach(|| ResumableRun::read(&checkpoint, options));
     let kept = kept.map_err(|error| from_command_line(&error))?;
     let project = match scene {
         Some(scene) => Arc::clone(&scene.get().project),
@@ -105,9 +98,8 @@ fn follow(
     let (news, from_run) = channel();
     let (answers, to_run) = channel();
     let stop = Arc::new(AtomicBool::new(false));
-    let reporter = callback
-        .is_some()
-        .then(|| Reporter::new(news.clone(), to_run, Arc::clone(&project)));
+    let reporter =
+        callback.is_some().then(|| Reporter::new(news.clone(), to_run, Arc::clone(&project)));
     let (told_to_stop, of_run) = (Arc::clone(&stop), Arc::clone(&project));
     let thread = std::thread::Builder::new().name("quasilux".to_owned()).spawn(move || {
         let finished = run(&of_run, listener(told_to_stop, reporter));

@@ -965,6 +965,7 @@ def test_notebooks_show_facts_and_the_polar_diagram(batwing):
     assert repr(lamp) == "<Photometry 'Lamp <b>': LM-63-2002, type C, none, 4 x 5, " + (
         f"{lamp.flux_lm:.4g} lm>"
     )
+    assert len(repr(photometry.from_intensities(0, [0, 9], [1, 1], name="long " * 50))) < 150
     html = lamp._repr_html_()
     assert "Lamp &lt;b&gt;" in html
     assert "<b>Lamp <b>" not in html

@@ -87,8 +87,8 @@ impl PointSet {
         }
     }
 
-    /// Coordinates from binary digits of one's own, the first (1/2) in bit 0, randomised as those of
-    /// a dimension of this point set are: for digital sequences in base 2 that are not among
+    /// Coordinates from binary digits of one's own, the first (1/2) in bit 0, randomised as those
+    /// of a dimension of this point set are: for digital sequences in base 2 that are not among
     /// [`Sequence`](crate::Sequence), and for Sobol' past 1024 dimensions without copies.
     ///
     /// Each coordinate is made from one element of `digits`, exclusive or `common`: matrices are

@@ -5,8 +5,8 @@
 //! nor files: progress and cancellation go through one [`Observer`].
 //!
 //! A run can be kept and gone on with ([`resume`]), or cut into parts and put together
-//! ([`trace_part`], [`merge`]), or have other processes trace most of it ([`simulate_with_workers`],
-//! [`trace_blocks`]), to the same bits.
+//! ([`trace_part`], [`merge`]), or have other processes trace most of it
+//! ([`simulate_with_workers`], [`trace_blocks`]), to the same bits.
 //!
 //! The folders depend one way, each on those before it:
 //!

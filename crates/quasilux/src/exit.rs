@@ -33,8 +33,8 @@ impl From<Exit> for ExitCode {
     }
 }
 
-/// Why the program refuses to do what it was told: one clear message, with the place in a file where
-/// there is one.
+/// Why the program refuses to do what it was told: one clear message, with the place in a file
+/// where there is one.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CliError {
     file: Option<String>,

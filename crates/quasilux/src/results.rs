@@ -31,9 +31,8 @@ impl<'a> ResultFile<'a> {
 
 /// Writes everything; each file appears whole or not at all.
 pub(crate) fn write(folder: &Path, report: &Report, of: PictureOf<'_>) -> Result<(), CliError> {
-    files(report, of).try_for_each(|ResultFile { name, render }| {
-        write_atomic(&folder.join(name), &render())
-    })
+    files(report, of)
+        .try_for_each(|ResultFile { name, render }| write_atomic(&folder.join(name), &render()))
 }
 
 /// All files of results.
@@ -41,8 +40,7 @@ pub(crate) fn files<'a>(
     report: &'a Report,
     of: PictureOf<'a>,
 ) -> impl Iterator<Item = ResultFile<'a>> {
-    let document =
-        ResultFile::new("result.json".to_owned(), || json::json(report).into_bytes());
+    let document = ResultFile::new("result.json".to_owned(), || json::json(report).into_bytes());
     let of_sensor = move |sensor: &'a SensorReport| {
         let name = |ending: &str| format!("{}.{ending}", sensor.name);
         let table = ResultFile::new(name("csv"), || csv::csv(sensor).into_bytes());

@@ -47,6 +47,7 @@ const DRAWERS: [&str; 7] = ["utils", "util", "core", "common", "helpers", "misc"
 pub(crate) fn outside_reads(files: &[RustFile]) -> Vec<Violation> {
     let below = |path: &str| {
         path.starts_with("crates/quasilux-")
+            && !path.starts_with("crates/quasilux-python/")
             && path.split('/').nth(2) == Some("src")
             && !TEST_FILES.iter().any(|folder| path.starts_with(folder))
     };

@@ -4,12 +4,46 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from typing import Any, Literal, TypedDict, final
+from typing import Any, Literal, TypedDict, final, type_check_only
 
 import numpy as np
 from numpy.typing import NDArray
 
 __version__: str
+
+__all__ = [
+    "BlockTracer",
+    "Drawing",
+    "InputError",
+    "Luminaire",
+    "MAX_BSDF_BYTES",
+    "MAX_PHOTOMETRY_BYTES",
+    "MAX_TILT_BYTES",
+    "Outcome",
+    "PointSet",
+    "Progress",
+    "SOBOL_DIMENSIONS",
+    "Scene",
+    "StateError",
+    "Surface",
+    "__version__",
+    "bsdf_directions",
+    "command_line",
+    "discrepancy",
+    "exchange_change",
+    "exchange_coordinates",
+    "false_colour_map",
+    "false_colour_scale",
+    "figure_text",
+    "identify_run",
+    "photometry_ending",
+    "photometry_from_intensities",
+    "read_bsdf",
+    "read_photometry",
+    "resume",
+    "simulate",
+    "to_normal",
+]
 
 class InputError(ValueError):
     """A file or a value that cannot be used.
@@ -27,6 +61,7 @@ def command_line(words: Sequence[str | os.PathLike[str]]) -> int: ...
 
 # scene
 
+@type_check_only
 class GeometryEntry(TypedDict):
     name: str
     vertices: NDArray[np.float64]
@@ -35,6 +70,7 @@ class GeometryEntry(TypedDict):
     materials: list[str]
     object: str
 
+@type_check_only
 class PartsEntry(TypedDict):
     name: str
     text: str
@@ -42,6 +78,7 @@ class PartsEntry(TypedDict):
     files: dict[str, bytes]
     geometry: list[GeometryEntry]
 
+@type_check_only
 class CheckEntry(TypedDict):
     document: str
     text: str
@@ -167,6 +204,7 @@ def figure_text(value: float | None, half_width: float | None) -> str: ...
 
 # drawing
 
+@type_check_only
 class ScaleEntry(TypedDict):
     low: float
     high: float
@@ -464,3 +502,15 @@ class Surface:
 
 def read_bsdf(data: bytes, file: str) -> Surface: ...
 def bsdf_directions(theta_deg: _Floats, phi_deg: _Floats) -> _Floats: ...
+
+# blocks
+
+class StateError(ValueError):
+    """A block of another run, or one that a tracer has gone past."""
+
+@final
+class BlockTracer:
+    def __new__(cls, bundle: bytes, options: Sequence[str]) -> BlockTracer: ...
+    def trace(self, frame: bytes, start: int, end: int) -> bytes: ...
+
+def identify_run(scene: Scene, options: Sequence[str]) -> str: ...

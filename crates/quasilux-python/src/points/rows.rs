@@ -3,7 +3,7 @@
 use std::thread;
 
 /// Each thread gets at least so many coordinates, to repay its start.
-const LEAST_WORK: usize = 1 << 17;
+const MIN_WORK: usize = 1 << 17;
 
 /// A sequence that writes points into rows.
 pub(super) trait Sequence: Sync {
@@ -38,7 +38,7 @@ impl<'a> Part<'a> {
         if dimensions == 0 {
             return;
         }
-        let workers = workers.min(self.points.len() / LEAST_WORK).max(1);
+        let workers = workers.min(self.points.len() / MIN_WORK).max(1);
         let count = (self.points.len() / dimensions).div_ceil(workers).max(1);
         thread::scope(|scope| {
             let mut parts = self.split(dimensions, count);

@@ -38,7 +38,7 @@ pub(super) struct Sobol {
 impl Sobol {
     /// The first dimensions of the table, at most [`DIMENSIONS`], randomised as `points` are.
     pub(super) fn new(dimensions: usize, points: PointSet) -> Self {
-        Self::of(matrices(dimensions), points)
+        Self::from_matrices(matrices(dimensions), points)
     }
 
     /// The same with each matrix multiplied from the left by a random lower triangular one, before
@@ -51,10 +51,10 @@ impl Sobol {
                 std::array::from_fn(|k| (stream_key(key, dimension, k as u64) | 1) << k);
             matrix.map(|column| product(&triangular, column))
         });
-        Self::of(scrambled, points)
+        Self::from_matrices(scrambled, points)
     }
 
-    fn of(matrices: impl Iterator<Item = [u64; 64]>, points: PointSet) -> Self {
+    fn from_matrices(matrices: impl Iterator<Item = [u64; 64]>, points: PointSet) -> Self {
         let matrices: Vec<[u64; 64]> = matrices.collect();
         let columns = std::array::from_fn(|k| matrices.iter().map(|matrix| matrix[k]).collect());
         Self { dimensions: matrices.len(), columns, points }

@@ -13,7 +13,7 @@ use crate::unit::{unit_from_digits, unit_from_word};
 /// So many coordinates are made at once.
 const LANES: usize = 8;
 /// Patterns of words have at least so many coordinates.
-const SHORTEST_PATTERN: usize = 64;
+const MIN_PATTERN: usize = 64;
 
 /// Randomises binary digits of consecutive dimensions, point after point.
 ///
@@ -53,7 +53,7 @@ impl PointSet {
     pub fn row_randomizer(&self, first_dimension: u32, dimensions: usize) -> RowRandomizer {
         let numbers = |length| (first_dimension..).take(dimensions).cycle().take(length);
         let words = |word: &dyn Fn(u32) -> u64| {
-            let repetitions = SHORTEST_PATTERN.div_ceil(period(dimensions).max(1));
+            let repetitions = MIN_PATTERN.div_ceil(period(dimensions).max(1));
             numbers(period(dimensions) * repetitions).map(word).collect()
         };
         let pattern = match self.randomization() {

@@ -2,8 +2,8 @@
 
 use super::owen::{OwenKey, short_even};
 
-/// The words of scrambles that [`OwenKey::scramble`] makes from its key each time: in vectors, where
-/// all keys differ, that would take a fifth of the time.
+/// The words of scrambles that [`OwenKey::scramble`] makes from its key each time: in vectors,
+/// where all keys differ, that would take a fifth of the time.
 #[derive(Clone, Copy)]
 pub(crate) struct OwenLanes<const LANES: usize> {
     addend: [u64; LANES],

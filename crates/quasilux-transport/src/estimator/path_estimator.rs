@@ -66,7 +66,7 @@ pub(crate) struct PathEstimator<'a, S> {
     samples: u64,
     /// Indices that photons which serve all paths are traced for, where they are traced for
     /// blocks of another process.
-    served: u64,
+    map_samples: u64,
     /// Targets that get more paths, in order.
     growing: Vec<usize>,
     /// The index that each target begins with; `None` before it does.
@@ -180,7 +180,7 @@ impl<'a, S: Spectrum> PathEstimator<'a, S> {
             targets,
             first: 0,
             samples: 0,
-            served: 0,
+            map_samples: 0,
             done: 0,
             prepared: Costs { work, photons },
             shared: Costs::default(),

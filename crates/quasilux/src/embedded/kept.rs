@@ -12,13 +12,13 @@ use std::path::{Path, PathBuf};
 
 /// A run that was kept, and the options with which it goes on.
 #[derive(Debug)]
-pub struct Kept {
+pub struct ResumableRun {
     arguments: ResumeArguments,
     latest: Latest,
     file: PathBuf,
 }
 
-impl Kept {
+impl ResumableRun {
     /// Reads a checkpoint; the options are those of `quasilux resume`, such as `--time=60`.
     ///
     /// # Errors

@@ -18,5 +18,5 @@ pub use crate::source::{Source, Triangles};
 pub use crate::watcher::{Event, Listener, Stopped};
 pub use blocks::{identify_run, simulate_with_workers, trace_blocks};
 pub use check::{Checked, check, plan};
-pub use kept::Kept;
+pub use kept::ResumableRun;
 pub use run::{Order, files, simulate, write};

@@ -10,6 +10,7 @@ mod build_fingerprint;
 mod cameras;
 mod direct;
 mod door;
+mod embedded;
 mod experiment;
 mod explain;
 mod fingerprint;

@@ -9,6 +9,7 @@ import numpy as np
 from quasilux.bsdf import _tables
 from quasilux.bsdf._facts import EnergyBalance, Reciprocity, Side
 from quasilux.photometry import _display
+from quasilux.photometry._display import short as short
 
 if TYPE_CHECKING:
     from quasilux.bsdf._surface import Bsdf

@@ -453,7 +453,7 @@ class Bsdf:
 
     def __repr__(self) -> str:
         tables = ", ".join(f"{table.side} {table.mode}" for table in self.tables)
-        return f"<Bsdf {self.title!r}: {self.format}; {tables}>"
+        return f"<Bsdf {_display.short(self.title)!r}: {self.format}; {tables}>"
 
     def _repr_svg_(self) -> str:
         return self.diagram().to_svg()

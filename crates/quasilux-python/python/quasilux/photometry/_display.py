@@ -13,7 +13,13 @@ if TYPE_CHECKING:
     from quasilux.photometry._facts import PlaneCurve
     from quasilux.photometry._luminaire import Photometry
 
+_LONGEST = 60
 _LEFT = 'style="text-align: left; vertical-align: top"'
+
+
+def short(title: str) -> str:
+    """Return what of a title fits on a line with other words."""
+    return title if len(title) <= _LONGEST else f"{title[: _LONGEST - 1]}\N{HORIZONTAL ELLIPSIS}"
 
 
 def html(luminaire: Photometry) -> str:

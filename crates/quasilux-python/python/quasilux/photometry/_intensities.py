@@ -168,10 +168,8 @@ class Intensities:
         array([[300., 150.,   0.],
                [300., 180.,  60.]])
         """
-        c_rows, gamma_rows = (
-            _arrays.scalars(c_deg, "c_deg"),
-            _arrays.scalars(gamma_deg, "gamma_deg"),
-        )
+        c_rows = _arrays.scalars(c_deg, "c_deg")
+        gamma_rows = _arrays.scalars(gamma_deg, "gamma_deg")
         shape = _arrays.common_shape(c_rows, gamma_rows, "c_deg and gamma_deg")
         if 0 in shape:
             return np.empty(shape)

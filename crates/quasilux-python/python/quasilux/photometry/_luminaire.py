@@ -418,7 +418,7 @@ class Photometry(Intensities):
 
     def __repr__(self) -> str:
         what = f"{self.standard}, type {self.type}, {self.symmetry}, {self.counts}"
-        return f"<Photometry {self.title!r}: {what}, {self.flux_lm:.4g} lm>"
+        return f"<Photometry {_display.short(self.title)!r}: {what}, {self.flux_lm:.4g} lm>"
 
     def _repr_svg_(self) -> str:
         return self.diagram().to_svg()

@@ -93,16 +93,16 @@ impl<S: Spectrum> PathEstimator<'_, S> {
         let targets = self.targets.len();
         // Maps that have grown do not shrink.
         let has_maps = self.end.photons(*coming).is_some() || self.caustics.is_some();
-        let is_behind = (self.served <= *coming || !has_maps) && samples < coming;
+        let is_behind = (self.map_samples <= *coming || !has_maps) && samples < coming;
         if [begins.len(), ends.len()] != [targets; 2] || !is_behind {
             return Err(StateError::Unfit("the progress of the run"));
         }
         let mut nobody = ();
         let watch = &mut Watch::new(&mut nobody);
-        if self.served < *coming && !self.serve(*coming, watch) {
+        if self.map_samples < *coming && !self.serve(*coming, watch) {
             return Err(StateError::Unfit("the progress of the run"));
         }
-        self.served = *coming;
+        self.map_samples = *coming;
         self.samples = *samples;
         if self.begins != *begins || self.ends != *ends {
             self.begins.clone_from(begins);
