@@ -28,7 +28,7 @@ PAIRS = 5
 def main() -> None:
     project = sys.argv[1] if len(sys.argv) > 1 else str(ROOT / "examples/office/office.toml")
     options = {"rel_tol": float(sys.argv[2]) if len(sys.argv) > 2 else 0.002}
-    ray.init(num_cpus=2, include_dashboard=False, log_to_driver=False)
+    ray.init(address="local", num_cpus=2, include_dashboard=False, log_to_driver=False)
     scene = quasilux.load(project)
     quasilux.ray.simulate(scene, **options)
     ratios = []

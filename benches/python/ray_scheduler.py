@@ -56,7 +56,7 @@ def model(blocks: int, block_s: float, cores: int, cost_s: float, start_s: float
 
 def main() -> None:
     cores = 32
-    ray.init(num_cpus=cores, include_dashboard=False, log_to_driver=False)
+    ray.init(address="local", num_cpus=cores, include_dashboard=False, log_to_driver=False)
     # Processes start with the first tasks, and some of them late.
     for _ in range(2):
         seconds(4 * cores, 0.5)

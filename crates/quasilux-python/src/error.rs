@@ -19,9 +19,10 @@ pyo3::create_exception!(
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     let kind: Bound<'_, PyType> = module.py().get_type::<InputError>();
     // What an exception has that Python code raised with a text alone.
-    for name in ["file", "line", "column", "message"] {
+    for name in ["file", "line", "column"] {
         kind.setattr(name, module.py().None())?;
     }
+    kind.setattr("message", "")?;
     module.add("InputError", kind)
 }
 

@@ -7,6 +7,7 @@ import signal
 import time
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -26,7 +27,7 @@ OFFICE = ROOT / "examples/office/office.toml"
 
 @pytest.fixture(scope="module")
 def cluster() -> Iterator[None]:
-    ray.init(num_cpus=2, include_dashboard=False, log_to_driver=False)
+    ray.init(address="local", num_cpus=2, include_dashboard=False, log_to_driver=False)
     yield
     ray.shutdown()
 
@@ -42,7 +43,7 @@ def same_bits(one: quasilux.Result, other: quasilux.Result) -> bool:
 @pytest.mark.parametrize("estimator", ["auto", "path", "photon", "bidirectional"])
 def test_results_have_the_bits_of_one_process(cluster: None, estimator: str) -> None:
     scene = quasilux.load(CUBE)
-    options = {"rel_tol": 0.01, "seed": 3, "estimator": estimator, "samples": 1 << 10}
+    options: dict[str, Any] = {"rel_tol": 0.01, "seed": 3, "estimator": estimator, "samples": 1 << 10}
     expected = quasilux.simulate(scene, **options)
     result = quasilux.ray.simulate(scene, **options)
     assert same_bits(result, expected)
@@ -81,7 +82,7 @@ def test_a_new_driver_goes_on_from_the_parts(cluster: None, tmp_path: Path) -> N
         if progress.samples >= 256:
             raise Stop
 
-    options = {"rel_tol": 0.01, "estimator": "path", "directory": tmp_path}
+    options: dict[str, Any] = {"rel_tol": 0.01, "estimator": "path", "directory": tmp_path}
     with pytest.raises(Stop):
         quasilux.ray.simulate(scene, progress=stop_late, **options)
     kept = sorted(tmp_path.rglob("*.block"))
@@ -123,7 +124,7 @@ def test_processes_that_are_killed_change_nothing(cluster: None) -> None:
 def test_errors_of_workers_and_options_are_raised(cluster: None) -> None:
     scene = quasilux.load(CUBE)
     with pytest.raises(quasilux.InputError, match="estimator"):
-        quasilux.ray.simulate(scene, estimator="magic")
+        quasilux.ray.simulate(scene, estimator="magic")  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="num_cpus"):
         quasilux.ray.simulate(scene, num_cpus=0)
 

@@ -425,13 +425,14 @@ def test_calls_leave_nothing_behind() -> None:
         result = quasilux.simulate(scene, progress=lambda p: False, **options)
         assert result["desk"].replicates_lx.shape == (16, 4, 6)
 
-    def calls(count: int) -> int:
+    def growth(count: int) -> int:
+        before = resident_bytes()
         for _ in range(count):
             call()
         gc.collect()
-        return resident_bytes()
+        return resident_bytes() - before
 
-    calls(100)
-    before = calls(100)
-    # A leak of 2 kB a call would show; benches/python/leak.py makes 10 000.
-    assert calls(300) - before < 300 * 2048 + (1 << 18)
+    growth(60)
+    # The allocator takes more now and then; what leaks does so every time. One of 2 kB a call would
+    # show; benches/python/leak.py makes 10 000.
+    assert min(growth(80) for _ in range(3)) < 80 * 2048

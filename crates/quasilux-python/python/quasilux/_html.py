@@ -54,9 +54,8 @@ def scene(found: Scene) -> str:
         entry["name"] + (" (not diffuse)" if entry["kind"] != "diffuse" else "")
         for entry in contents["materials"]
     ]
-    size = ""
-    if found.bounds_m is not None:
-        size = " x ".join(f"{edge:.4g}" for edge in found.bounds_m[1] - found.bounds_m[0]) + " m"
+    low, high = found.bounds_m
+    size = " x ".join(f"{edge:.4g}" for edge in high - low) + " m"
     rows = [
         ("geometry", f"{contents['triangles']} triangles, {size}"),
         ("materials", ", ".join(materials)),

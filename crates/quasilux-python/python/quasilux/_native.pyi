@@ -55,7 +55,7 @@ class InputError(ValueError):
     file: str | None
     line: int | None
     column: int | None
-    message: str | None
+    message: str
 
 def command_line(words: Sequence[str | os.PathLike[str]]) -> int: ...
 

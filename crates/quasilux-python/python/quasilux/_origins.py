@@ -56,6 +56,13 @@ class Origins:
         origin = self._of_line(int(found[1] or 0))
         return f"{origin}: {text[found.end() :]}" if origin else text[found.end() :]
 
+    def report(self, text: str) -> str:
+        """Return a text of many lines that names values and no lines of the project."""
+        if not self.name:
+            return text
+        place = re.compile(rf"(?<!\S){re.escape(self.name)}:(\d+):\d+: ")
+        return place.sub(lambda found: f"{self._of_line(int(found[1])) or self.name}: ", text)
+
     def finding(self, finding: Finding) -> Finding:
         """Return a finding that names the value and not the line."""
         if not self.name or finding.file != self.name:

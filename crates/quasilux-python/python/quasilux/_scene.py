@@ -239,12 +239,11 @@ class Scene:
         return self._native.sha256
 
     @property
-    def bounds_m(self) -> NDArray[np.float64] | None:
-        """Lowest and highest coordinates of the geometry in m, shape (2, 3); None without any."""
+    def bounds_m(self) -> NDArray[np.float64]:
+        """Lowest and highest coordinates of the geometry in m, shape (2, 3)."""
         import numpy as np
 
-        bounds = self._contents["bounds_m"]
-        return None if bounds is None else np.array(bounds)
+        return np.array(self._contents["bounds_m"])
 
     @property
     def vertices(self) -> NDArray[np.float64]:
@@ -325,6 +324,7 @@ class Scene:
             check,
             findings=tuple(map(self._origins.finding, check.findings)),
             warnings=tuple(map(self._origins.text, check.warnings)),
+            text=self._origins.report(check.text),
         )
 
     @overload

@@ -315,13 +315,31 @@ class CameraResult:
         """Whether the picture is what was wanted."""
         return self._entry["tolerance_reached"]
 
-    def png(self) -> bytes | None:
-        """Return the picture as it would look on a screen, as a PNG file."""
-        return self._result._outcome.file(f"{self.name}.png")
+    def _file(self, ending: str) -> bytes:
+        content = self._result._outcome.file(f"{self.name}.{ending}")
+        if content is None:
+            raise ValueError(f"the run was stopped before {self.name!r} had a picture")
+        return content
 
-    def exr(self) -> bytes | None:
-        """Return colours, luminances and half-widths as an OpenEXR file."""
-        return self._result._outcome.file(f"{self.name}.exr")
+    def png(self) -> bytes:
+        """Return the picture as it would look on a screen, as a PNG file.
+
+        Raises
+        ------
+        ValueError
+            Where there is no picture.
+        """
+        return self._file("png")
+
+    def exr(self) -> bytes:
+        """Return colours, luminances and half-widths as an OpenEXR file.
+
+        Raises
+        ------
+        ValueError
+            Where there is no picture.
+        """
+        return self._file("exr")
 
     def plot(self, ax: Axes | None = None, *, colorbar: bool = True) -> Axes:
         """Plot luminances in false colours on a logarithmic scale with matplotlib.
@@ -347,7 +365,7 @@ class CameraResult:
         return f"<quasilux.CameraResult {self.name!r}: {size} pixels, mean {self.mean} cd/m²>"
 
     def _repr_png_(self) -> bytes | None:
-        return self.png()
+        return self.png() if self.samples else None
 
 
 def _sensor_of(result: Result, name: str) -> SensorResult:

@@ -79,7 +79,8 @@ def simulate(
         checkpoint has, at a checkpoint with that. Any other exception ends the run, too, and is
         raised then.
     checkpoint : path-like, optional
-        Keep the run in this file while it goes, for `resume`.
+        Keep the run in this file while it goes, for `resume`; a scene that is in no project file
+        is kept beside it, in FILE.scene.
     checkpoint_every_s : float, default 5.0
         How often, at most, in s.
 
