@@ -34,8 +34,7 @@ def _trace(
 
     References in lists are fetched where they are needed, and so once a process or a frame.
     """
-    if isinstance(frame, list):
-        frame = ray.get(frame[0]).tobytes()
+    content: bytes = ray.get(frame[0]).tobytes() if isinstance(frame, list) else frame
     for is_last in (False, True):
         tracer = _tracers.get(run)
         if tracer is None:
@@ -44,7 +43,7 @@ def _trace(
             tracer = _native.BlockTracer(bundle.tobytes(), options)
             _tracers[run] = tracer
         try:
-            return tracer.trace(frame, start, end)
+            return tracer.trace(content, start, end)
         except _native.StateError:
             # Maps that have grown too far for this block: another tracer begins anew.
             del _tracers[run]
