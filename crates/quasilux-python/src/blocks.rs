@@ -7,11 +7,12 @@ use pyo3::prelude::*;
 use pyo3::pybacked::PyBackedBytes;
 use pyo3::types::{PyBytes, PyIterator, PyList};
 use quasilux::embedded::{self, Order, Project, Source, trace_blocks};
-use quasilux_transport::{BlockTracer as Tracer, StateError as BadState, Workers};
+use quasilux_transport::{BlockTracer as Tracer, Received, StateError as BadState, Workers};
 use std::ffi::OsString;
 use std::ops::Range;
-use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::{Arc, Mutex};
 
 pyo3::create_exception!(
     _native,
@@ -50,15 +51,27 @@ pub(crate) struct BlockTracer {
 
 #[pymethods]
 impl BlockTracer {
-    /// Of a scene in bytes, with the options of a run as on the command line.
+    /// Of a scene in bytes, with the options of a run as on the command line, and what identifies
+    /// the run where it was begun.
     #[new]
-    fn new(py: Python<'_>, bundle: PyBackedBytes, options: Vec<OsString>) -> PyResult<Self> {
+    #[pyo3(signature = (bundle, options, run))]
+    fn new(
+        py: Python<'_>,
+        bundle: PyBackedBytes,
+        options: Vec<OsString>,
+        run: &str,
+    ) -> PyResult<Self> {
         let (tasks, queue) = channel();
         let (ready, is_ready) = channel();
         py.detach(move || {
             let source = Source::from_bundle(&bundle).map_err(|error| from_command_line(&error))?;
             let project = Project::load(source).map_err(|error| from_command_line(&error))?;
             let order = Order::from_words(options).map_err(|error| from_command_line(&error))?;
+            let own = embedded::identify_run(&project, &order);
+            if own.map_err(|error| from_command_line(&error))? != run {
+                let message = "this process has another build of quasilux than the one that asks";
+                return Err(PyRuntimeError::new_err(message));
+            }
             std::thread::Builder::new()
                 .name("quasilux blocks".to_owned())
                 .spawn(move || serve(&project, &order, &ready, queue))
@@ -108,16 +121,19 @@ fn serve(project: &Project, order: &Order, ready: &Sender<Option<String>>, queue
 }
 
 /// Workers in Python: an object whose method `trace` takes a frame and a list of ranges, and
-/// iterates over pairs of the number of a block and the bytes that came of it.
+/// iterates over pairs of the number of a block and the bytes that came of it; about once a second
+/// over `None`, where nothing comes.
 pub(crate) struct PythonWorkers {
     object: Py<PyAny>,
+    /// Whether the run is to end.
+    stop: Arc<AtomicBool>,
     /// What was raised there, which ended the run.
     pub(crate) raised: Option<PyErr>,
 }
 
 impl PythonWorkers {
-    pub(crate) fn new(object: Py<PyAny>) -> Self {
-        Self { object, raised: None }
+    pub(crate) fn new(object: Py<PyAny>, stop: Arc<AtomicBool>) -> Self {
+        Self { object, stop, raised: None }
     }
 
     fn ask(
@@ -125,7 +141,7 @@ impl PythonWorkers {
         py: Python<'_>,
         frame: &[u8],
         blocks: &[Range<u64>],
-        done: &mut dyn FnMut(usize, &[u8]) -> bool,
+        done: &mut dyn FnMut(Received<'_>) -> bool,
     ) -> PyResult<bool> {
         let ranges = blocks.iter().map(|block| (block.start, block.end));
         let arguments = (PyBytes::new(py, frame), PyList::new(py, ranges)?);
@@ -133,16 +149,24 @@ impl PythonWorkers {
         let answers: Bound<'_, PyIterator> = answers.try_iter()?;
         let mut missing = vec![true; blocks.len()];
         for answer in answers.clone() {
-            let (number, bytes): (usize, PyBackedBytes) = answer?.extract()?;
-            let is_awaited = missing.get(number).copied().unwrap_or(false);
-            if !is_awaited {
-                return Err(PyValueError::new_err(format!("block {number} was not asked for")));
-            }
-            missing[number] = false;
-            if !done(number, &bytes) {
+            let answer: Option<(usize, PyBackedBytes)> = answer?.extract()?;
+            let is_idle = answer.is_none();
+            let goes_on = match answer {
+                None => done(Received::Nothing),
+                Some((number, bytes)) => {
+                    if !missing.get(number).copied().unwrap_or(false) {
+                        let message = format!("block {number} was not asked for");
+                        return Err(PyValueError::new_err(message));
+                    }
+                    missing[number] = false;
+                    done(Received::Block { number, bytes: &bytes })
+                }
+            };
+            // Before its first checkpoint a run goes on, but not where nothing comes.
+            if !goes_on || (is_idle && self.stop.load(Ordering::Relaxed)) {
                 // Lets a generator clean up behind itself.
                 let _ = answers.call_method0("close");
-                return Ok(true);
+                return Ok(!goes_on);
             }
         }
         Ok(!missing.contains(&true))
@@ -154,7 +178,7 @@ impl Workers for PythonWorkers {
         &mut self,
         frame: &[u8],
         blocks: &[Range<u64>],
-        done: &mut dyn FnMut(usize, &[u8]) -> bool,
+        done: &mut dyn FnMut(Received<'_>) -> bool,
     ) -> bool {
         let asked = Python::attach(|py| self.ask(py, frame, blocks, done));
         asked.unwrap_or_else(|error| {

@@ -42,11 +42,13 @@ fn simulate(
 ) -> PyResult<Outcome> {
     let project = Arc::clone(&scene.get().project);
     let order = Order::from_words(options).map_err(|error| from_command_line(&error))?;
+    let stop = Arc::new(AtomicBool::new(false));
+    let workers = workers.map(|object| PythonWorkers::new(object, Arc::clone(&stop)));
     let run = move |project: &Project, listener: Listener<'_>| match workers {
         None => embedded::simulate(project, &order, Some(listener)).map_err(Failure::Refused),
-        Some(object) => with_workers(project, &order, listener, object),
+        Some(workers) => with_workers(project, &order, listener, workers),
     };
-    follow(py, project, callback, Box::new(run))
+    follow(py, project, callback, stop, Box::new(run))
 }
 
 /// Goes on with a run that was kept, of the scene or of the project that it was begun with.
@@ -68,16 +70,15 @@ fn resume(
     let run = move |project: &Project, listener: Listener<'_>| {
         kept.go_on(project, Some(listener)).map_err(Failure::Refused)
     };
-    follow(py, project, callback, Box::new(run))
+    follow(py, project, callback, Arc::default(), Box::new(run))
 }
 
 fn with_workers(
     project: &Project,
     order: &Order,
     listener: Listener<'_>,
-    object: Py<PyAny>,
+    mut workers: PythonWorkers,
 ) -> Outcomes {
-    let mut workers = PythonWorkers::new(object);
     let done = embedded::simulate_with_workers(project, order, Some(listener), &mut workers);
     match workers.raised {
         Some(raised) => Err(Failure::Raised(raised)),
@@ -93,11 +94,11 @@ fn follow(
     py: Python<'_>,
     project: Arc<Project>,
     callback: Option<Py<PyAny>>,
+    stop: Arc<AtomicBool>,
     run: Run,
 ) -> PyResult<Outcome> {
     let (news, from_run) = channel();
     let (answers, to_run) = channel();
-    let stop = Arc::new(AtomicBool::new(false));
     let reporter =
         callback.is_some().then(|| Reporter::new(news.clone(), to_run, Arc::clone(&project)));
     let (told_to_stop, of_run) = (Arc::clone(&stop), Arc::clone(&project));

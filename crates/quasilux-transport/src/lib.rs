@@ -65,7 +65,7 @@ pub use stats::estimates::{
 pub use stats::interval::{self, Interval};
 pub use stats::observer::{self, Control, Observer, PictureProgress, Progress, Snapshot};
 pub use stats::picture::{CameraEstimates, Pixel};
-pub use stats::workers::Workers;
+pub use stats::workers::{Received, Workers};
 
 /// Tests the example of the README.
 #[cfg(doctest)]

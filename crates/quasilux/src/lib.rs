@@ -1,7 +1,7 @@
 //! How many lux, and how sure: the command line.
 //!
 //! Everything that touches the machine lives here: arguments, files, threads, the clock, signals,
-//! exit codes. Read on at [`commands::run`] for the main job, and at [`embedded`] for programs that
+//! exit codes. Read on at `commands::run` for the main job, and at [`embedded`] for programs that
 //! carry this one in them.
 
 #![warn(clippy::print_stdout, clippy::print_stderr)]

@@ -19,6 +19,7 @@ Submodules: `quasilux.qmc` (point sets), `quasilux.photometry` (luminaires), `qu
 from __future__ import annotations
 
 import importlib
+import importlib.util
 from typing import TYPE_CHECKING, Any
 
 from quasilux import _native
@@ -52,7 +53,6 @@ __all__ = [
     "load",
     "photometry",
     "qmc",
-    "ray",
     "resume",
     "simulate",
 ]
@@ -87,4 +87,6 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    return sorted({*globals(), *__all__})
+    # Ray is an extra.
+    ray = {"ray"} if importlib.util.find_spec("ray") else set[str]()
+    return sorted({*globals(), *__all__, *ray})

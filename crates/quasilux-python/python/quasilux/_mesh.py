@@ -172,7 +172,12 @@ def _materials(
         expected = f"({triangles},): the index or the name of the material of each triangle"
         raise input_error(f"material_of has the shape {array.shape}; expected {expected}")
     if array.dtype.kind in "UO":
-        return _by_name([str(name) for name in array.tolist()], materials)
+        names: list[Any] = array.tolist()
+        if all(isinstance(name, str) for name in names):
+            return _by_name(names, materials)
+        if not all(isinstance(name, int) and not isinstance(name, bool) for name in names):
+            raise input_error("material_of mixes kinds; expected indices alone, or names alone")
+        array = array.astype(np.int64)
     indices = _indices(array, "material_of", "indices into materials or names of such")
     if triangles and indices.max() >= max(len(materials), 1):
         at = int(indices.argmax())

@@ -30,6 +30,7 @@ use crate::stats::observer::Snapshot;
 use crate::stats::tally::checked_quanta;
 use crate::stats::targets::{by_sensor, snapshot};
 use crate::stats::watch::{BlockCounts, Watch};
+use crate::stats::workers::BlockSize;
 use crate::world::Interaction;
 use crate::world::flight::Flight;
 use quasilux_scene::Scene;
@@ -166,8 +167,10 @@ impl<S: Spectrum> PhotonEstimator<'_, S> {
 
 impl<S: Spectrum> Estimator for PhotonEstimator<'_, S> {
     fn advance(&mut self, samples: u64, watch: &mut Watch<'_>) -> bool {
-        let (indices, each) = (self.samples..samples, self.counters.len() as u64);
-        if let Some(blocks) = watch.blocks(|| BlockFrame::CountedPhotons, indices, each) {
+        let indices = self.samples..samples;
+        let counters: usize = self.counters.iter().map(|own| own.all.len()).sum();
+        let size = BlockSize { paths: self.counters.len() as u64, sums: counters as u64 };
+        if let Some(blocks) = watch.blocks(|| BlockFrame::CountedPhotons, indices, size) {
             let is_done = watch.distribute(&blocks, &mut |from| {
                 let mut photons = PhotonCounts::default();
                 photons.merge_from(from)?;

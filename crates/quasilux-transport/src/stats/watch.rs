@@ -3,7 +3,7 @@
 use crate::codec::{Reader, StateError, Writer};
 use crate::stats::estimates::Estimates;
 use crate::stats::observer::{Control, Observer, PictureProgress, Progress, Snapshot};
-use crate::stats::workers::{self, Workers};
+use crate::stats::workers::{self, BlockSize, Received, Workers};
 use serde::Serialize;
 use std::ops::Range;
 
@@ -115,16 +115,15 @@ impl<'o> Watch<'o> {
         self.failed
     }
 
-    /// Blocks of `work`, each unit of which takes as long as about `each` paths; `None` where there
-    /// is nobody to trace them, or less than a block.
+    /// Blocks of `work`; `None` where there is nobody to trace them, or less than a block.
     pub(crate) fn blocks<T: Serialize>(
         &self,
         frame: impl FnOnce() -> T,
         work: Range<u64>,
-        each: u64,
+        size: BlockSize,
     ) -> Option<Blocks> {
         let min_paths = self.workers.as_ref()?.min_paths();
-        let ranges = workers::blocks(&work, each, min_paths);
+        let ranges = workers::blocks(&work, size, min_paths);
         if ranges.is_empty() {
             return None;
         }
@@ -144,12 +143,18 @@ impl<'o> Watch<'o> {
     ) -> bool {
         let Some(workers) = self.workers.take() else { return false };
         let (mut goes_on, mut is_sound) = (true, true);
-        let mut done = |_: usize, bytes: &[u8]| {
+        let mut done = |received: Received<'_>| {
+            let Received::Block { bytes, .. } = received else {
+                // Whoever waits for long may want to stop.
+                goes_on = self.tick(0, 0, 0) && !self.stopped;
+                return goes_on;
+            };
             let mut from = Reader::new(bytes);
             let added = add(&mut from).and_then(|counts| from.end().map(|()| counts));
             match added {
                 Ok(BlockCounts { photons, paths, rays }) => {
-                    goes_on = self.tick(photons, paths, rays);
+                    // There is no state within a row of blocks.
+                    goes_on = self.tick(photons, paths, rays) && !self.stopped;
                 }
                 Err(_) => is_sound = false,
             }

@@ -8,7 +8,8 @@ use crate::scenes::{point_light, points};
 use glam::DVec3;
 use quasilux_scene::Scene;
 use quasilux_transport::{
-    EstimatorKind, Settings, Switch, Workers, simulate, simulate_with_workers, trace_blocks,
+    EstimatorKind, Observer, Received, Settings, Switch, Workers, simulate, simulate_with_workers,
+    trace_blocks,
 };
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -54,7 +55,7 @@ impl Workers for Pair {
         &mut self,
         frame: &[u8],
         blocks: &[Range<u64>],
-        done: &mut dyn FnMut(usize, &[u8]) -> bool,
+        done: &mut dyn FnMut(Received<'_>) -> bool,
     ) -> bool {
         let kind = if frame[32] == 0 { [0, frame[33]] } else { [frame[32], 0] };
         *self.kinds.entry(kind).or_default() += blocks.len();
@@ -79,7 +80,8 @@ impl Workers for Pair {
             match known.get(&number) {
                 Some(before) => assert!(*before == bytes, "block {number} differs"),
                 None => {
-                    done(number, &bytes);
+                    assert!(done(Received::Nothing));
+                    done(Received::Block { number, bytes: &bytes });
                     known.insert(number, bytes);
                 }
             }
@@ -100,6 +102,35 @@ fn work(scene: &Scene, settings: &Settings, tasks: Receiver<Task>) {
     });
 }
 
+/// Keeps all states of a run.
+struct Keeper(Vec<Vec<u8>>);
+
+impl Observer for Keeper {
+    fn piece(&self) -> Option<u64> {
+        Some(700)
+    }
+
+    fn wants_state(&mut self) -> bool {
+        true
+    }
+
+    fn state(&mut self, state: &[u8]) {
+        self.0.push(state.to_vec());
+    }
+}
+
+/// Goes on with two workers from states in the middle of a run that had none.
+fn check_states(name: &str, scene: &Scene, settings: &Settings, pair: &mut Pair) {
+    let mut keeper = Keeper(Vec::new());
+    let whole = simulate(scene, settings, &mut keeper);
+    let count = keeper.0.len();
+    for number in [count / 3, count * 3 / 4] {
+        let state = Some(keeper.0[number].as_slice());
+        let again = simulate_with_workers(scene, settings, state, &mut (), pair);
+        assert!(again.as_ref() == Ok(&Some(whole.clone())), "{name}: state {number} of {count}");
+    }
+}
+
 /// Runs with two workers, and returns how many blocks of each kind there were.
 fn check(name: &str, scene: &Scene, settings: &Settings) -> BTreeMap<[u8; 2], usize> {
     let whole = simulate(scene, settings, &mut ());
@@ -112,6 +143,9 @@ fn check(name: &str, scene: &Scene, settings: &Settings) -> BTreeMap<[u8; 2], us
         let mut pair = Pair { tasks, numbers: 5, kinds: BTreeMap::new() };
         let again = simulate_with_workers(scene, settings, None, &mut (), &mut pair);
         assert!(again == Ok(Some(whole)), "{name}");
+        if matches!(name, "photon" | "path" | "connected") {
+            check_states(name, scene, settings, &mut pair);
+        }
         pair.kinds
     })
 }
@@ -171,9 +205,10 @@ impl Workers for Broken {
         &mut self,
         _: &[u8],
         blocks: &[Range<u64>],
-        done: &mut dyn FnMut(usize, &[u8]) -> bool,
+        done: &mut dyn FnMut(Received<'_>) -> bool,
     ) -> bool {
-        self.answers && (0..blocks.len()).all(|number| done(number, &[7, 200, 1]))
+        self.answers
+            && (0..blocks.len()).all(|number| done(Received::Block { number, bytes: &[7, 200, 1] }))
     }
 }
 
@@ -201,7 +236,7 @@ fn bad_blocks_are_refused() {
             &mut self,
             frame: &[u8],
             blocks: &[Range<u64>],
-            _: &mut dyn FnMut(usize, &[u8]) -> bool,
+            _: &mut dyn FnMut(Received<'_>) -> bool,
         ) -> bool {
             self.0.push((frame.to_vec(), blocks[0].clone()));
             false

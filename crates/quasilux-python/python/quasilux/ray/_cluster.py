@@ -19,8 +19,13 @@ logger = logging.getLogger("quasilux.ray")
 # Frames up to this many bytes go with each task, larger ones through the object store.
 _INLINE_BYTES = 1 << 14
 
-# The tracer of this process, by the run that it is for: surveys and pilots are made once.
+# Tracers of this process, by the run that each is for, the last used one last: surveys and pilots
+# are made once.
 _tracers: dict[str, _native.BlockTracer] = {}
+_MAX_TRACERS = 2
+
+# How often a driver that waits looks whether it is to stop.
+_TICK_S = 1.0
 
 
 def _trace(
@@ -36,19 +41,22 @@ def _trace(
     """
     content: bytes = ray.get(frame[0]).tobytes() if isinstance(frame, list) else frame
     for is_last in (False, True):
-        tracer = _tracers.get(run)
+        tracer = _tracers.pop(run, None)
         if tracer is None:
-            _tracers.clear()
+            while len(_tracers) >= _MAX_TRACERS:
+                del _tracers[next(iter(_tracers))]
             bundle, options = ray.get(order[0])
-            tracer = _native.BlockTracer(bundle.tobytes(), options)
-            _tracers[run] = tracer
+            tracer = _native.BlockTracer(bundle.tobytes(), options, run)
         try:
-            return tracer.trace(content, start, end)
-        except _native.StateError:
-            # Maps that have grown too far for this block: another tracer begins anew.
-            del _tracers[run]
+            traced = tracer.trace(content, start, end)
+        except (_native.StateError, RuntimeError):
+            # Maps that have grown too far for this block, or a thread that is gone: another tracer
+            # begins anew.
             if is_last:
                 raise
+        else:
+            _tracers[run] = tracer
+            return traced
     raise AssertionError("the loop returns or raises")
 
 
@@ -97,8 +105,8 @@ class Cluster:
 
     def trace(
         self, frame: bytes, blocks: Sequence[tuple[int, int]]
-    ) -> Iterator[tuple[int, bytes]]:
-        """Yield the number of each block with what it gave, as they come."""
+    ) -> Iterator[tuple[int, bytes] | None]:
+        """Yield the number of each block with what it gave, as they come; None where none do."""
         name = hashlib.sha256(frame).hexdigest()[:32]
         waiting: deque[int] = deque()
         for number, (start, end) in enumerate(blocks):
@@ -122,7 +130,10 @@ class Cluster:
                         self._run, [self._order], sent, start, end
                     )
                     running[task] = number
-                done, _ = ray.wait(list(running), num_returns=1)
+                done, _ = ray.wait(list(running), num_returns=1, timeout=_TICK_S)
+                if not done:
+                    yield None
+                    continue
                 # What else is there already costs no further wait.
                 more, _ = ray.wait(list(running), num_returns=len(running), timeout=0)
                 for task in {*done, *more}:

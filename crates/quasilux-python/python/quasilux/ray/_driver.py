@@ -56,8 +56,9 @@ def simulate(
     Connects to the cluster that ``ray.init`` has been called for, or to that of the environment,
     or begins one on this machine. The driver surveys the scene, keeps the sums and looks at the
     checkpoints; photons and paths are traced by tasks of the cluster. Tasks that are lost with
-    their process or node are done again, nodes may come and go at any time. What the driver does
-    by itself: surveys and pilots, photons of maps that all paths end on, and pictures.
+    their process or node are done again, nodes may come and go at any time. Surveys and pilots,
+    and photons of maps that all paths end on, are traced by the driver and once more in each
+    process; pictures by the driver alone.
 
     Parameters
     ----------

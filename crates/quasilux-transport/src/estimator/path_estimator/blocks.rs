@@ -9,6 +9,7 @@ use crate::path::wave::{PathWave, WAVE};
 use crate::photon::counts::PhotonCounts;
 use crate::spectrum::Spectrum;
 use crate::stats::watch::{BlockCounts, Watch, split};
+use crate::stats::workers::BlockSize;
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -34,7 +35,8 @@ impl<S: Spectrum> PathEstimator<'_, S> {
         let pairs = self.growing.len() as u64 * u64::from(self.replicates);
         let paths = (indices.end - indices.start) * pairs;
         let frame = || BlockFrame::Paths { role: self.role, progress: self.progress(coming) };
-        let blocks = watch.blocks(frame, 0..paths, 1)?;
+        let size = BlockSize { paths: 1, sums: 0 };
+        let blocks = watch.blocks(frame, self.done..paths, size)?;
         Some(watch.distribute(&blocks, &mut |from| {
             let piece = Piece::read(from, pairs as usize)?;
             let work = self.add(vec![piece]);
@@ -54,7 +56,9 @@ impl<S: Spectrum> PathEstimator<'_, S> {
         let progress = || BlockFrame::ConnectedPhotons { progress: self.progress(coming) };
         let light_vertices = self.light_vertices.as_ref()?;
         let indices = light_vertices.samples()..coming;
-        let blocks = watch.blocks(progress, indices, light_vertices.work_of_an_index())?;
+        let size =
+            BlockSize { paths: light_vertices.work_of_an_index(), sums: self.sums.len() as u64 };
+        let blocks = watch.blocks(progress, indices, size)?;
         let Self { light_vertices, contribution, .. } = self;
         let light_vertices = light_vertices.as_mut()?;
         let is_done = watch.distribute(&blocks, &mut |from| {

@@ -6,6 +6,7 @@ use crate::estimator::block::BlockFrame;
 use crate::spectrum::Spectrum;
 use crate::stats::tally::Sum;
 use crate::stats::watch::{BlockCounts, Watch};
+use crate::stats::workers::BlockSize;
 use std::ops::Range;
 
 /// Cost of a photon that is connected to one target after the other, in paths.
@@ -18,8 +19,9 @@ impl<S: Spectrum> Witness<'_, S> {
         indices: &Range<u64>,
         watch: &mut Watch<'_>,
     ) -> bool {
-        let each = CONNECTING * u64::from(BATCHES);
-        let blocks = watch.blocks(|| BlockFrame::WitnessPhotons, indices.clone(), each);
+        let (paths, sums) = (CONNECTING * u64::from(BATCHES), self.photons.sums.len() as u64);
+        let size = BlockSize { paths, sums };
+        let blocks = watch.blocks(|| BlockFrame::WitnessPhotons, indices.clone(), size);
         let Some(blocks) = blocks else { return false };
         // Where workers fail the run has no result.
         let _ =
@@ -30,7 +32,8 @@ impl<S: Spectrum> Witness<'_, S> {
     /// The same of paths.
     pub(super) fn paths_by_workers(&mut self, indices: &Range<u64>, watch: &mut Watch<'_>) -> bool {
         let each = self.targets.len() as u64 * u64::from(BATCHES);
-        let blocks = watch.blocks(|| BlockFrame::WitnessPaths, indices.clone(), each);
+        let size = BlockSize { paths: each, sums: each };
+        let blocks = watch.blocks(|| BlockFrame::WitnessPaths, indices.clone(), size);
         let (Some(blocks), Some(paths)) = (blocks, &mut self.paths) else { return false };
         let _ = watch.aside(|watch| watch.distribute(&blocks, &mut |from| paths.merge(from)));
         true
