@@ -25,6 +25,32 @@ class Options:
     def _put(self, option: str, value: str) -> None:
         self._words.append(f"--{option}={value}")
 
+    def run(
+        self,
+        *,
+        rel_tol: float | str | None,
+        abs_tol_lx: float | None,
+        tolerance_on: str | None,
+        confidence: float | str | None,
+        samples: int | None,
+        rays: int | None,
+        time_s: float | None,
+        estimator: str | None,
+        sequence: str | None,
+        seed: int | None,
+    ) -> None:
+        """Add what every run may be asked for, whoever traces it."""
+        self.share("rel-tol", "rel_tol", rel_tol)
+        self.number("abs-tol", "abs_tol_lx", abs_tol_lx)
+        self.name("tolerance-on", "tolerance_on", tolerance_on)
+        self.share("confidence", "confidence", confidence)
+        self.whole("samples", "samples", samples)
+        self.whole("rays", "rays", rays)
+        self.number("time", "time_s", time_s)
+        self.name("estimator", "estimator", estimator)
+        self.name("sequence", "sequence", sequence)
+        self.whole("seed", "seed", seed)
+
     def whole(self, option: str, name: str, value: int | None) -> None:
         """Add a whole number."""
         if value is None:

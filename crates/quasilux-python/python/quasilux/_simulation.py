@@ -116,16 +116,18 @@ def simulate(
     from quasilux._result import Result
 
     options = Options()
-    options.share("rel-tol", "rel_tol", rel_tol)
-    options.number("abs-tol", "abs_tol_lx", abs_tol_lx)
-    options.name("tolerance-on", "tolerance_on", tolerance_on)
-    options.share("confidence", "confidence", confidence)
-    options.whole("samples", "samples", samples)
-    options.whole("rays", "rays", rays)
-    options.number("time", "time_s", time_s)
-    options.name("estimator", "estimator", estimator)
-    options.name("sequence", "sequence", sequence)
-    options.whole("seed", "seed", seed)
+    options.run(
+        rel_tol=rel_tol,
+        abs_tol_lx=abs_tol_lx,
+        tolerance_on=tolerance_on,
+        confidence=confidence,
+        samples=samples,
+        rays=rays,
+        time_s=time_s,
+        estimator=estimator,
+        sequence=sequence,
+        seed=seed,
+    )
     options.whole("threads", "threads", threads)
     options.flag("strict", strict)
     if checkpoint is not None:

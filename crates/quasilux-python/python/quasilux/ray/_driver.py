@@ -100,16 +100,18 @@ def simulate(
             raise ValueError(f"{name} is {value!r}; expected a whole number of 1 or more")
     scene = as_scene(scene)
     options = Options()
-    options.share("rel-tol", "rel_tol", rel_tol)
-    options.number("abs-tol", "abs_tol_lx", abs_tol_lx)
-    options.name("tolerance-on", "tolerance_on", tolerance_on)
-    options.share("confidence", "confidence", confidence)
-    options.whole("samples", "samples", samples)
-    options.whole("rays", "rays", rays)
-    options.number("time", "time_s", time_s)
-    options.name("estimator", "estimator", estimator)
-    options.name("sequence", "sequence", sequence)
-    options.whole("seed", "seed", seed)
+    options.run(
+        rel_tol=rel_tol,
+        abs_tol_lx=abs_tol_lx,
+        tolerance_on=tolerance_on,
+        confidence=confidence,
+        samples=samples,
+        rays=rays,
+        time_s=time_s,
+        estimator=estimator,
+        sequence=sequence,
+        seed=seed,
+    )
     of_blocks = [*options.words, f"--threads={num_cpus}"]
     options.flag("strict", strict)
     try:
