@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import signal
 import time
 from collections.abc import Iterator
@@ -40,17 +41,32 @@ def same_bits(one: quasilux.Result, other: quasilux.Result) -> bool:
     )
 
 
-@pytest.mark.parametrize("estimator", ["auto", "path", "photon", "bidirectional"])
-def test_results_have_the_bits_of_one_process(cluster: None, estimator: str) -> None:
+def blocks_traced(caplog: pytest.LogCaptureFixture) -> int:
+    """Blocks of all runs that the log tells of."""
+    told = re.findall(r"done: (\d+) blocks traced", caplog.text)
+    return sum(int(count) for count in told)
+
+
+@pytest.mark.parametrize(
+    ("estimator", "samples"),
+    [("auto", 1 << 9), ("path", 1 << 9), ("photon", 1 << 17), ("bidirectional", 1 << 10)],
+)
+def test_results_have_the_bits_of_one_process(
+    cluster: None, caplog: pytest.LogCaptureFixture, estimator: Any, samples: int
+) -> None:
     scene = quasilux.load(CUBE)
-    options: dict[str, Any] = {"rel_tol": 0.01, "seed": 3, "estimator": estimator, "samples": 1 << 10}
-    expected = quasilux.simulate(scene, **options)
-    result = quasilux.ray.simulate(scene, **options)
+    options: dict[str, Any] = {"rel_tol": 1e-6, "seed": 3, "samples": samples}
+    expected = quasilux.simulate(scene, estimator=estimator, **options)
+    with caplog.at_level("INFO", logger="quasilux.ray"):
+        result = quasilux.ray.simulate(scene, estimator=estimator, **options)
     assert same_bits(result, expected)
     assert result.rays == expected.rays
+    assert blocks_traced(caplog) > 0
 
 
-def test_scenes_of_arrays_are_shipped_whole(cluster: None) -> None:
+def test_scenes_of_arrays_are_shipped_whole(
+    cluster: None, caplog: pytest.LogCaptureFixture
+) -> None:
     side = 4.0
     corners = np.array([[x, y, z] for x in (0, side) for y in (0, side) for z in (0, side)])
     faces = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
@@ -63,12 +79,14 @@ def test_scenes_of_arrays_are_shipped_whole(cluster: None) -> None:
         sensors={
             "desk": {
                 "kind": "grid", "origin": [0.5, 0.5, 0.8], "u": [3, 0, 0], "v": [0, 3, 0],
-                "spacing": 0.5, "normal": [0, 0, 1],
+                "spacing": 0.2, "normal": [0, 0, 1],
             }
         },
     )
-    expected = quasilux.simulate(scene, rel_tol=0.005)
-    assert same_bits(quasilux.ray.simulate(scene, rel_tol=0.005), expected)
+    expected = quasilux.simulate(scene, rel_tol=0.001)
+    with caplog.at_level("INFO", logger="quasilux.ray"):
+        assert same_bits(quasilux.ray.simulate(scene, rel_tol=0.001), expected)
+    assert blocks_traced(caplog) > 0
 
 
 def test_a_new_driver_goes_on_from_the_parts(cluster: None, tmp_path: Path) -> None:
@@ -132,4 +150,4 @@ def test_errors_of_workers_and_options_are_raised(cluster: None) -> None:
 def test_progress_is_logged(cluster: None, caplog: pytest.LogCaptureFixture) -> None:
     with caplog.at_level("INFO", logger="quasilux.ray"):
         quasilux.ray.simulate(quasilux.load(CUBE), rel_tol=0.02, estimator="path")
-    assert any("blocks" in record.message for record in caplog.records)
+    assert "checkpoint" in caplog.text and "done" in caplog.text

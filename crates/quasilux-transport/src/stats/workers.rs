@@ -53,25 +53,41 @@ pub(crate) struct BlockSize {
 /// Paths of a block for each sum that comes of it: adding them takes far less time than tracing.
 const PATHS_OF_A_SUM: u64 = 4;
 
-/// Blocks of some work: as many as are needed to keep many workers busy, of some hundredths of a
-/// second at least, and of some seconds at most, so that losing one does not hurt. The cut depends
-/// on the work alone, so that blocks that were kept serve any other number of workers.
-const BLOCKS: u64 = 256;
-const MIN_PATHS: u64 = 1 << 14;
+/// Paths of the smallest block, some hundredths of a second, and of the largest, some seconds, so
+/// that losing one does not hurt.
+const MIN_PATHS: u64 = 1 << 13;
 const MAX_PATHS: u64 = 1 << 22;
 
-/// The blocks of `work`; none where there is less than a block of `min_paths`.
+/// Less work than this many of the smallest blocks is done here: in the many short phases that a
+/// run begins with, all would wait for the last block of the slowest.
+const FEW: u64 = 32;
+
+/// Blocks get shorter as work runs out, so that nobody waits for long for the last one: C. D.
+/// Polychronopoulos and D. J. Kuck, "Guided self-scheduling" (IEEE Trans. Comput. C-36, 1987). Each
+/// is a part of what is left that leaves work for many workers, but not shorter than several of the
+/// smallest ones while two workers have enough.
+const MANY: u64 = 256;
+const SEVERAL: u64 = 8;
+const OF_TWO: u64 = 4;
+
+/// The blocks of `work`; none where there is little. The cut depends on the work alone, so that
+/// blocks that were kept serve any other number of workers.
 pub(crate) fn blocks(work: &Range<u64>, size: BlockSize, min_paths: u64) -> Vec<Range<u64>> {
     let each = size.paths.max(1);
-    let min_paths = min_paths.max(size.sums.saturating_mul(PATHS_OF_A_SUM));
-    let paths = (work.end - work.start).saturating_mul(each);
-    if paths <= min_paths {
+    let least = min_paths.max(size.sums.saturating_mul(PATHS_OF_A_SUM));
+    let paths_to_end = |start: u64| (work.end - start).saturating_mul(each);
+    if paths_to_end(work.start) <= least.max(min_paths.saturating_mul(FEW)) {
         return Vec::new();
     }
-    let of_block = (paths / BLOCKS).min(MAX_PATHS).max(min_paths).next_power_of_two();
-    let length = (of_block / each).max(1);
-    let starts = (work.start..work.end).step_by(length as usize);
-    starts.map(|start| start..work.end.min(start + length)).collect()
+    let several = least.saturating_mul(SEVERAL);
+    let most = least.max(MAX_PATHS);
+    let next = |start: u64| {
+        let left = paths_to_end(start);
+        let paths = (left / OF_TWO).min(several).max(left / MANY).clamp(least, most);
+        let length = (paths.next_power_of_two() / each).max(1);
+        (start < work.end).then(|| start..work.end.min(start + length))
+    };
+    std::iter::successors(next(work.start), |block| next(block.end)).collect()
 }
 
 #[cfg(test)]
@@ -80,15 +96,22 @@ mod tests {
 
     #[test]
     fn blocks_fill_the_work_and_are_neither_small_nor_large() {
-        for (work, each) in [(3..70_000, 1), (0..1 << 30, 1), (5..900, 1 << 12), (0..7, 1 << 30)] {
+        let works =
+            [(3..700_000, 1), (0..1 << 30, 1), (5..900, 1 << 12), (0..7, 1 << 30), (9..80_000, 6)];
+        for (work, each) in works {
             let all = blocks(&work, BlockSize { paths: each, sums: 0 }, MIN_PATHS);
             assert_eq!((all[0].start, all[all.len() - 1].end), (work.start, work.end));
             assert!(all.windows(2).all(|pair| pair[0].end == pair[1].start));
-            let longest = all.iter().map(|block| block.end - block.start).max().unwrap();
+            let lengths = || all.iter().map(|block| block.end - block.start);
+            let longest = lengths().max().unwrap();
             assert!(longest == 1 || (MIN_PATHS..=MAX_PATHS).contains(&(longest * each)));
+            // The last one may be short of its length.
+            assert!(all.len() < 3000 && lengths().rev().skip(1).is_sorted(), "{work:?}");
         }
-        assert_eq!(blocks(&(0..100), BlockSize { paths: 10, sums: 0 }, MIN_PATHS), []);
-        let many = BlockSize { paths: 1, sums: 1 << 20 };
-        assert_eq!(blocks(&(0..1 << 26), many, MIN_PATHS).len(), 16);
+        let size = BlockSize { paths: 10, sums: 0 };
+        assert_eq!(blocks(&(0..MIN_PATHS * FEW / 10), size, MIN_PATHS), []);
+        let many = BlockSize { paths: 1, sums: 1 << 18 };
+        let smallest = blocks(&(0..1 << 26), many, MIN_PATHS).into_iter().next_back().unwrap();
+        assert_eq!(smallest.end - smallest.start, 1 << 20);
     }
 }

@@ -48,7 +48,7 @@ impl Pair {
 
 impl Workers for Pair {
     fn min_paths(&self) -> u64 {
-        1 << 10
+        1 << 5
     }
 
     fn trace(
@@ -169,7 +169,7 @@ fn workers_change_no_bit() {
         ..Settings::default()
     };
     let connected =
-        Settings { connections: Switch::On, ..settings(EstimatorKind::Bidirectional, 1 << 9) };
+        Settings { connections: Switch::On, ..settings(EstimatorKind::Bidirectional, 1 << 12) };
     let mapped = Settings {
         map_element_m: Some(0.5),
         map_photons: 3,
@@ -183,7 +183,7 @@ fn workers_change_no_bit() {
         ("on maps that grow", &coloured, mapped),
         ("hidden light", &caustics, settings(EstimatorKind::Path, 1 << 10)),
         ("taken over", &keyhole(), settings(EstimatorKind::Auto, 1 << 11)),
-        ("converged", &screened(), settings(EstimatorKind::Auto, 1 << 12)),
+        ("converged", &screened(), settings(EstimatorKind::Auto, 1 << 13)),
         ("long photon", &closed(0.5), long(EstimatorKind::Photon, 1 << 15)),
     ];
     let mut kinds: BTreeMap<[u8; 2], usize> = BTreeMap::new();
@@ -217,7 +217,7 @@ fn no_result_comes_from_workers_that_fail() {
     let scene = screened();
     let settings = Settings {
         estimator: EstimatorKind::Path,
-        max_samples: Some(1 << 13),
+        max_samples: Some(1 << 14),
         rel_tol: 1e-9,
         ..Settings::default()
     };
@@ -245,7 +245,7 @@ fn bad_blocks_are_refused() {
     let scene = screened();
     let settings = Settings {
         estimator: EstimatorKind::Path,
-        max_samples: Some(1 << 13),
+        max_samples: Some(1 << 14),
         rel_tol: 1e-9,
         ..Settings::default()
     };

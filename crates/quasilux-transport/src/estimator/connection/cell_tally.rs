@@ -124,6 +124,10 @@ impl CellTally {
         lx
     }
 
+    pub(super) fn sum_count(&self) -> usize {
+        self.sums.len() * self.cells * self.slots
+    }
+
     /// Contributions that are not in the sums.
     pub(super) fn invalid(&self) -> u64 {
         self.sums.iter().flat_map(|sums| lock(sums).clone()).map(|sum| sum.invalid).sum()

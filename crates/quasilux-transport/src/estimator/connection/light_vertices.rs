@@ -23,8 +23,8 @@ use std::sync::Mutex;
 
 /// Targets that the same photons are connected to; others have photons of their own.
 const GROUP: usize = 256;
-/// Cost of a connected photon, in photons that are not connected.
-const JOINING: u64 = 4;
+/// Connections of a photon that cost as much as tracing it.
+const CONNECTIONS_OF_A_PHOTON: u64 = 32;
 
 /// Sums that grow with a run.
 pub(crate) struct LightVertexConnections {
@@ -163,8 +163,20 @@ impl LightVertexConnections {
 
     /// How much work an index is, in photons that are not connected.
     pub(crate) fn work_of_an_index(&self) -> u64 {
-        let light_vertices = self.connection.photons() * self.sums.len() as u64 * JOINING;
-        (light_vertices + self.connection.cell_photons) * self.replicates.len() as u64
+        let of_group = |ends: &[Option<u64>]| {
+            let open = ends.iter().filter(|end| end.is_none()).count() as u64;
+            if open == 0 { 0 } else { 1 + open / CONNECTIONS_OF_A_PHOTON }
+        };
+        let connected: u64 = self.ends.chunks(GROUP).map(of_group).sum();
+        let counted = if connected == 0 { 0 } else { self.connection.cell_photons };
+        (self.connection.photons() * connected + counted) * self.replicates.len() as u64
+    }
+
+    /// How many sums and scores there are.
+    pub(crate) fn sum_count(&self) -> usize {
+        let sums = self.elements.len() * self.terms * self.replicates.len();
+        let of_cells = self.coarse.as_ref().map_or(0, |(_, coarse)| coarse.sum_count());
+        sums + self.elements.len() + of_cells
     }
 
     /// Adds the photons that belong to the indices up to `samples`, those that are connected and

@@ -56,8 +56,8 @@ impl<S: Spectrum> PathEstimator<'_, S> {
         let progress = || BlockFrame::ConnectedPhotons { progress: self.progress(coming) };
         let light_vertices = self.light_vertices.as_ref()?;
         let indices = light_vertices.samples()..coming;
-        let size =
-            BlockSize { paths: light_vertices.work_of_an_index(), sums: self.sums.len() as u64 };
+        let (paths, sums) = (light_vertices.work_of_an_index(), light_vertices.sum_count() as u64);
+        let size = BlockSize { paths, sums };
         let blocks = watch.blocks(progress, indices, size)?;
         let Self { light_vertices, contribution, .. } = self;
         let light_vertices = light_vertices.as_mut()?;
