@@ -104,7 +104,7 @@ def test_the_last_of_all_points():
     "make",
     [
         lambda d: qmc.Sobol(d, rng=7),
-        lambda d: qmc.Sobol(d, rng=7, randomization="linear"),
+        lambda d: qmc.Sobol(d, rng=7, randomization="owen"),
         lambda d: qmc.Sobol(d, rng=7, randomization="shift"),
         lambda d: qmc.Sobol(d, rng=7, randomization="rotation"),
         lambda d: qmc.Halton(min(d, 1024), rng=7),
@@ -321,7 +321,7 @@ def test_the_generator_is_not_touched_but_for_its_children():
     "make",
     [
         lambda: qmc.Sobol(5, rng=1, bits=20),
-        lambda: qmc.Sobol(5, rng=1, randomization="linear"),
+        lambda: qmc.Sobol(5, rng=1, randomization="owen"),
         lambda: qmc.Halton(5, rng=1),
         lambda: qmc.Faure4(5, rng=1, randomization="shift"),
         lambda: qmc.Hammersley(5, 512, rng=1),

@@ -49,14 +49,11 @@ EXPECTED_TO_FAIL_IN_SCIPY = ["TestUtils.test_geometric_discrepancy_mst_with_zero
 """Run without SciPy's mark that they fail: here they pass."""
 
 SEEDED = [
-    "TestMultinomialQMC.test_MultinomialBasicDraw",
-    "TestNormalQMC.test_NormalQMCShapiro",
+    "TestNormalQMC.test_NormalQMCShapiroInvTransform",
     "TestMultivariateNormalQMC.test_MultivariateNormalQMCShapiro",
-    "TestMultivariateNormalQMC.test_MultivariateNormalQMCShapiroInvTransform",
 ]
 """Run with other seeds too: their tolerances hold for some seeds only, SciPy's among them. Of the
-draws in these tests 82, 47 and 77 % pass with SciPy (multinomial, normal by pairs and by inversion;
-400 seeds) and 86, 47 and 79 % with ours."""
+draws in these tests 76 and 81 % pass with SciPy (400 seeds) and 77 and 75 % with ours."""
 
 
 def _exchanged(sample, i1, i2, k, disc):

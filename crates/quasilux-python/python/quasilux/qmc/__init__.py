@@ -15,10 +15,10 @@ written for SciPy needs. Every public name of `scipy.stats.qmc` is here, and thr
 
 What equals SciPy bit for bit: `Sobol` without scrambling (any `bits`, in its Gray code order) and
 `LatinHypercube` without optimization from the same `rng`. `Halton` without scrambling is within
-1e-15. What differs: scrambled sequences take Owen's nested uniform scrambling by hashing, where
-SciPy has random triangular matrices and a digital shift for Sobol' (here
-``randomization="linear"``) and one permutation for each digit for Halton. Points are as even, equal
-ones come of equal `rng`, but the numbers are other ones.
+1e-15. What differs: scrambled points of Sobol' have random triangular matrices and a digital shift
+as SciPy's, but other ones (and Owen's nested uniform scrambling by ``randomization="owen"``);
+Halton's have Owen's scrambling, where SciPy has one permutation for each digit. Points are as even,
+equal ones come of equal `rng`, but the numbers are other ones.
 
 All points are made in compiled code without the global lock, by index: `fast_forward` is free, and
 no state but a counter is kept. Where `scipy.stats` has been imported, engines count as SciPy's own,

@@ -97,16 +97,18 @@ class Sobol(_SequenceEngine):
     d : int
         The number of dimensions, at most `MAXDIM` (21201).
     scramble : bool, optional
-        Owen's nested uniform scrambling by hashing; without it the points are those of SciPy.
+        Random triangular matrices and a digital shift, as in SciPy; without them the points are
+        those of SciPy.
     bits : int, optional
         At most ``2**bits`` points can be drawn; 30 by default, 64 at most. Unlike SciPy's,
         scrambled coordinates have 53 bits whatever `bits` is.
     rng, seed, optimization
         As for `QMCEngine`. `rng` picks the scrambling.
     randomization : {"owen", "linear", "shift", "rotation", "none"}, optional
-        Overrules `scramble`: nested scrambling; random triangular matrices and a digital shift,
-        which is SciPy's way, twice as fast; a digital shift alone; a random rotation modulo 1
-        (Cranley and Patterson); or none.
+        Overrules `scramble`: random triangular matrices and a digital shift ("linear"); Owen's
+        nested uniform scrambling by hashing, with the same variances of means, but more digits that
+        are independent, at half the speed ("owen"); a digital shift alone; a random rotation modulo
+        1 (Cranley and Patterson); or none.
 
     Attributes
     ----------
@@ -161,7 +163,8 @@ class Sobol(_SequenceEngine):
         self.scramble = scramble
         self.bits = 30 if bits is None else int(bits)
         self.maxn = 2**self.bits
-        kind = "linear" if randomization == "linear" else _randomization(scramble, randomization)
+        is_linear = randomization == "linear" or (randomization is None and scramble)
+        kind = "linear" if is_linear else _randomization(scramble, randomization)
         super().__init__(d, "sobol", kind, optimization=optimization, rng=rng, seed=seed)
         self._init_quad |= {"scramble": True, "bits": bits}
 
