@@ -61,13 +61,7 @@ impl<S: Spectrum> PathEstimator<'_, S> {
         let each = (indices.end - indices.start) * u64::from(self.replicates);
         let paths = each * self.growing.len() as u64;
         for round in watch.rounds(self.done..paths, ROUND) {
-            let pieces = (round.end - round.start).div_ceil(WAVE);
-            let trace = |wave: &mut PathWave<S>, piece: u64| {
-                let first = round.start + piece * WAVE;
-                self.trace_piece(&(first..(first + WAVE).min(round.end)), &indices, wave)
-            };
-            let found: Vec<Piece> =
-                (0..pieces).into_par_iter().map_init(PathWave::default, trace).collect();
+            let found = self.trace_round(&round, &indices);
             let of_round = self.add(found);
             let (now, rays) = (of_round.paths, of_round.rays);
             self.contribution.work += of_round;
@@ -80,6 +74,16 @@ impl<S: Spectrum> PathEstimator<'_, S> {
         }
         (self.samples, self.done) = (samples, 0);
         true
+    }
+
+    /// Traces these paths of the row of all growing targets and replicates, each with `indices`.
+    pub(super) fn trace_round(&self, round: &Range<u64>, indices: &Range<u64>) -> Vec<Piece> {
+        let pieces = (round.end - round.start).div_ceil(WAVE);
+        let trace = |wave: &mut PathWave<S>, piece: u64| {
+            let first = round.start + piece * WAVE;
+            self.trace_piece(&(first..(first + WAVE).min(round.end)), indices, wave)
+        };
+        (0..pieces).into_par_iter().map_init(PathWave::default, trace).collect()
     }
 
     /// Traces the photons of light vertex connections up to `samples`.

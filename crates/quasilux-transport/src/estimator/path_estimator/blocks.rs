@@ -5,12 +5,10 @@ use super::{Costs, PathEstimator};
 use crate::codec::{Reader, StateError, Stored, Writer};
 use crate::estimator::block::{BlockFrame, PathProgress, PathRole};
 use crate::path::sections::{PathScores, PathSums, Piece, WorkCounts};
-use crate::path::wave::{PathWave, WAVE};
 use crate::photon::counts::PhotonCounts;
 use crate::spectrum::Spectrum;
 use crate::stats::watch::{BlockCounts, Watch, split};
 use crate::stats::workers::BlockSize;
-use rayon::prelude::*;
 use std::ops::Range;
 
 impl<S: Spectrum> PathEstimator<'_, S> {
@@ -128,13 +126,7 @@ impl<S: Spectrum> PathEstimator<'_, S> {
         let numbers = block.start / each..block.end.div_ceil(each);
         let mut whole = Piece::empty(numbers.start as usize..numbers.end as usize);
         for round in split(block.clone(), ROUND) {
-            let pieces = (round.end - round.start).div_ceil(WAVE);
-            let trace = |wave: &mut PathWave<S>, piece: u64| {
-                let first = round.start + piece * WAVE;
-                self.trace_piece(&(first..(first + WAVE).min(round.end)), &indices, wave)
-            };
-            let found: Vec<Piece> =
-                (0..pieces).into_par_iter().map_init(PathWave::default, trace).collect();
+            let found = self.trace_round(&round, &indices);
             found.into_iter().for_each(|piece| whole.absorb(piece));
         }
         let mut out = Writer::default();
