@@ -159,6 +159,17 @@ mod tests {
     }
 
     #[test]
+    fn a_file_with_the_name_of_geometry_is_refused() {
+        let lamp = "[[luminaires]]\nphotometry = \"a.ies\"\nposition = [0, 0, 1]\n";
+        let with_lamp = Source { text: [PROJECT, lamp].concat().into_bytes(), ..source() };
+        let with_both = with_lamp
+            .with_triangles("a.ies", Triangles::default())
+            .with_file("a.ies", b"IESNA91".to_vec());
+        let error = Project::load(with_both).err().expect("a refusal").to_string();
+        assert!(error.contains("has the name of this file"), "{error}");
+    }
+
+    #[test]
     fn what_is_no_bundle_is_refused() {
         let bundle = Project::load(source()).unwrap().to_bundle().unwrap();
         let refusal = |bytes: &[u8]| Source::from_bundle(bytes).unwrap_err().to_string();

@@ -116,8 +116,11 @@ impl Source {
         }
     }
 
-    /// The bytes of a file.
+    /// The bytes of a file, whose name no geometry in memory may have.
     fn read(&self, name: &str, kind: FileKind) -> io::Result<Vec<u8>> {
+        if self.triangles.contains_key(name) {
+            return Err(io::Error::other("the geometry in memory has the name of this file"));
+        }
         match (self.files.get(name), &self.folder) {
             (Some(bytes), _) => Ok(bytes.clone()),
             (None, Some(folder)) => input::read_kind(&folder.join(name), kind),
