@@ -2,7 +2,7 @@
 
 Scrambled Sobol' points as numpy arrays, here and from SciPy: nanoseconds a coordinate, the engine
 made anew each time, medians of rounds in which all take turns. SciPy's scrambling is the linear
-one. Nothing else should run meanwhile.
+one, which is the default here. Nothing else should run meanwhile.
 """
 
 from __future__ import annotations
@@ -31,10 +31,10 @@ def contenders(d: int, m: int) -> dict[str, Callable[[], object]]:
     n = 2**m
     return {
         "SciPy": lambda: scipy_qmc.Sobol(d, scramble=True, rng=1).random_base2(m),
-        "Owen": lambda: qmc.Sobol(d, scramble=True, rng=1).random_base2(m),
-        "Owen, 1 thread": lambda: qmc.Sobol(d, scramble=True, rng=1).random_base2(m, workers=1),
-        "linear": lambda: qmc.Sobol(d, randomization="linear", rng=1).random_base2(m),
-        "linear, 1 thread": lambda: qmc.Sobol(d, randomization="linear", rng=1).random_base2(
+        "linear": lambda: qmc.Sobol(d, scramble=True, rng=1).random_base2(m),
+        "linear, 1 thread": lambda: qmc.Sobol(d, scramble=True, rng=1).random_base2(m, workers=1),
+        "Owen": lambda: qmc.Sobol(d, randomization="owen", rng=1).random_base2(m),
+        "Owen, 1 thread": lambda: qmc.Sobol(d, randomization="owen", rng=1).random_base2(
             m, workers=1
         ),
         # What no generator can fall short of: numpy's memory, written once.
