@@ -4,12 +4,13 @@ use crate::Violation;
 use toml::Table;
 
 /// The crates from the ground up, and what each may use of the others.
-const MAY_USE: [(&str, &[&str]); 15] = [
+const MAY_USE: [(&str, &[&str]); 16] = [
     ("quasilux-sampling", &[]),
     ("quasilux-bvh", &[]),
     ("quasilux-stats", &[]),
     ("quasilux-corpus", &[]),
     ("quasilux-text", &[]),
+    ("quasilux-sky", &[]),
     ("quasilux-photometry", &["quasilux-sampling", "quasilux-text"]),
     ("quasilux-bsdf", &["quasilux-photometry", "quasilux-sampling", "quasilux-text"]),
     ("quasilux-scene", &["quasilux-bsdf", "quasilux-photometry", "quasilux-text"]),

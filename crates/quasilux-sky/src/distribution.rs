@@ -1,0 +1,63 @@
+//! How the luminance of a sky is distributed, up to a factor.
+
+use crate::cie::CieType;
+use crate::gradation::Gradation;
+use crate::perez::Perez;
+use crate::point::{SkyPoint, dot};
+use crate::quadrature::over_the_sky;
+
+/// Relative luminances of a sky.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Distribution {
+    form: Form,
+    /// Towards the sun, which may be below the horizon.
+    sun: [f64; 3],
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Form {
+    Uniform,
+    /// 1 + 2 sin(altitude).
+    TraditionalOvercast,
+    Gradation(Gradation),
+}
+
+impl Distribution {
+    /// The same in all directions.
+    #[must_use]
+    pub fn uniform() -> Self {
+        Self { form: Form::Uniform, sun: [0.0, 0.0, 1.0] }
+    }
+
+    /// A CIE sky with the sun at this point; on types 1, 3, 5 and 16 it has no influence.
+    #[must_use]
+    pub fn cie(cie: CieType, sun: SkyPoint) -> Self {
+        let form = cie.gradation().map_or(Form::TraditionalOvercast, Form::Gradation);
+        Self { form, sun: sun.to_direction() }
+    }
+
+    /// The sky of a measured hour.
+    #[must_use]
+    pub fn perez(perez: &Perez) -> Self {
+        Self { form: Form::Gradation(perez.gradation()), sun: perez.sun().to_direction() }
+    }
+
+    /// The relative luminance in a direction, a unit vector; 0 below the horizon.
+    #[must_use]
+    pub fn relative(&self, direction: [f64; 3]) -> f64 {
+        let cos_zenith = direction[2];
+        if cos_zenith < 0.0 {
+            return 0.0;
+        }
+        match &self.form {
+            Form::Uniform => 1.0,
+            Form::TraditionalOvercast => 1.0 + 2.0 * cos_zenith,
+            Form::Gradation(gradation) => gradation.relative(cos_zenith, dot(direction, self.sun)),
+        }
+    }
+
+    /// The horizontal illuminance of relative luminances.
+    pub(crate) fn horizontal(&self) -> f64 {
+        over_the_sky(self.sun, |direction| self.relative(direction) * direction[2])
+    }
+}
