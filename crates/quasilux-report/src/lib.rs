@@ -15,6 +15,7 @@ pub mod csv;
 mod figure;
 pub mod json;
 pub mod number;
+pub mod outside;
 pub mod picture;
 pub mod plan;
 pub mod report;
@@ -22,6 +23,7 @@ pub mod table;
 
 pub use camera::{CameraFiles, CameraReport};
 pub use figure::Figure;
+pub use outside::Outside;
 pub use picture::{PictureOf, camera_false_colour_png, exr, false_colour_png, tone_mapped_png};
 pub use plan::plan;
 pub use quasilux_drawing::picture::PlanMark;

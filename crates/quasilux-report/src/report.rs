@@ -6,6 +6,7 @@
 
 use crate::CameraReport;
 use crate::figure::{Figure, finite};
+use crate::outside::Outside;
 use glam::DVec3;
 use quasilux_inspection::Finding;
 use quasilux_scene::{Grid, Scene, SensorShape};
@@ -49,6 +50,8 @@ pub struct Report {
     pub sensors: Vec<SensorReport>,
     /// One entry a camera, in the order of the scene.
     pub cameras: Vec<CameraReport>,
+    /// What shines from outside.
+    pub outside: Option<Outside>,
     /// How the results were made.
     pub run: Run,
     /// Where the variance comes from, if that was asked for; [`Self::new`] leaves it to its caller.
@@ -193,6 +196,7 @@ impl Report {
         Self {
             sensors,
             cameras,
+            outside: Outside::new(scene),
             run: Run {
                 version: facts.version,
                 build: facts.build,

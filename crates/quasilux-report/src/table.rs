@@ -54,6 +54,11 @@ pub fn table(report: &Report, style: Style) -> String {
     if let Some(line) = flux::flux(&report.run) {
         writeln!(text, "{}", style.paint(Emphasis::Faint, &line)).expect("strings grow");
     }
+    if let Some(outside) = &report.outside {
+        let lx = brief(outside.horizontal_illuminance_lx, 4);
+        let line = format!("outside: {lx} lx on a horizontal plane");
+        writeln!(text, "{}", style.paint(Emphasis::Faint, &line)).expect("strings grow");
+    }
     for warning in &report.warnings {
         let mark = style.paint(Emphasis::Caution, "warning:");
         writeln!(text, "{mark} {}", printable(warning)).expect("strings grow");

@@ -10,6 +10,7 @@ pub mod bsdf;
 pub mod camera;
 mod checks;
 mod enclosures;
+pub mod environment;
 pub mod error;
 mod files;
 mod geometry;
@@ -25,6 +26,7 @@ pub mod solids;
 
 pub use bsdf::Bsdf;
 pub use camera::{Camera, View};
+pub use environment::{Environment, Opening, Sun};
 pub use error::{LoadError, Spanned, Warning};
 pub use files::{FileKind, Files, TriangleArrays, too_large};
 pub use light::Light;

@@ -1,5 +1,6 @@
 //! The scene: built once, checked once, then immutable.
 
+use crate::environment::Environment;
 use crate::{Bsdf, Camera, Light, Mesh, Sensor};
 
 /// Everything that exists in a room.
@@ -9,8 +10,10 @@ pub struct Scene {
     pub mesh: Mesh,
     /// The materials that triangles refer to.
     pub materials: Vec<Material>,
-    /// The lights; at least one with a positive flux.
+    /// The lights; at least one with a positive flux where nothing shines from outside.
     pub lights: Vec<Light>,
+    /// What shines from outside.
+    pub environment: Option<Environment>,
     /// The sensors; names are unique among sensors and cameras.
     pub sensors: Vec<Sensor>,
     /// The cameras; at least one where there is no sensor.

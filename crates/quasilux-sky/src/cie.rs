@@ -46,6 +46,12 @@ impl CieType {
         self.0
     }
 
+    /// Whether its luminances depend on where the sun is.
+    #[must_use]
+    pub fn needs_sun(self) -> bool {
+        !matches!(self.0, 1 | 3 | 5 | 16)
+    }
+
     /// What the standard calls it.
     #[must_use]
     pub fn description(self) -> &'static str {

@@ -34,6 +34,17 @@ pub enum Purpose {
         /// The surface.
         surface: u32,
     },
+    /// The opening that light from outside is asked through, and the place in it, from a surface or
+    /// the sensor (0).
+    Opening {
+        /// The surface.
+        surface: u32,
+    },
+    /// The place on the sun's disk that is asked, from a surface or the sensor (0).
+    Sun {
+        /// The surface.
+        surface: u32,
+    },
     /// The light without an area that is asked.
     PointLike {
         /// The surface.
@@ -144,6 +155,8 @@ impl fmt::Display for Purpose {
             Self::AreaLight { surface } => ("place on an area light", surface),
             Self::AreaLightImage { surface } => ("image of an area light and place on it", surface),
             Self::AreaLuminaire { surface } => ("luminaire and place on it", surface),
+            Self::Opening { surface } => ("opening and place in it", surface),
+            Self::Sun { surface } => ("place on the sun", surface),
             Self::PointLike { surface } => ("choice of a light", surface),
             Self::Image { surface } => ("choice of images in mirrors", surface),
             Self::Correction { surface } => ("correction of the map", surface),

@@ -13,7 +13,7 @@ const MAY_USE: [(&str, &[&str]); 16] = [
     ("quasilux-sky", &[]),
     ("quasilux-photometry", &["quasilux-sampling", "quasilux-text"]),
     ("quasilux-bsdf", &["quasilux-photometry", "quasilux-sampling", "quasilux-text"]),
-    ("quasilux-scene", &["quasilux-bsdf", "quasilux-photometry", "quasilux-text"]),
+    ("quasilux-scene", &["quasilux-bsdf", "quasilux-photometry", "quasilux-sky", "quasilux-text"]),
     (
         "quasilux-transport",
         &[
@@ -22,6 +22,7 @@ const MAY_USE: [(&str, &[&str]); 16] = [
             "quasilux-bvh",
             "quasilux-bsdf",
             "quasilux-photometry",
+            "quasilux-sky",
         ],
     ),
     (

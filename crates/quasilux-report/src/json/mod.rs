@@ -20,9 +20,11 @@
 //! `dimension_counts`: how many photons and paths used 0, 1, 2, .. coordinates, in one list each,
 //! all of more than 1023 together at its end, `photons`, how many began in all, `null` where none
 //! did, and `mean_events`, surfaces that a `photon` came to on average. A point that reached its
-//! tolerance before others has its own number of `samples`. Where it was asked for, `explain` says
-//! which coordinates carry the variance. `findings` are what is probably wrong with the scene, each
-//! with the `check` that found it, place and `cure`; `warnings` have them as text, too.
+//! tolerance before others has its own number of `samples`. Where the sky shines, `outside` has its
+//! horizontal illuminance, and where nothing else does each point its `daylight_factor`, a share.
+//! Where it was asked for, `explain` says which coordinates carry the variance. `findings` are what
+//! is probably wrong with the scene, each with the `check` that found it, place and `cure`;
+//! `warnings` have them as text, too.
 
 mod camera;
 mod explanation;
@@ -31,7 +33,7 @@ mod layout;
 mod prediction;
 mod terms;
 
-use crate::{Figure, Report, Run, SensorReport};
+use crate::{Figure, Outside, Report, Run, SensorReport};
 pub use finding::FindingEntry;
 
 use camera::CameraEntry;
@@ -71,6 +73,8 @@ struct Document<'a> {
     biased: bool,
     sensors: Vec<SensorEntry<'a>>,
     cameras: Vec<CameraEntry<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    outside: Option<OutsideEntry>,
     run: RunEntry<'a>,
     #[serde(skip_serializing_if = "Option::is_none")]
     explain: Option<ExplanationEntry<'a>>,
@@ -95,6 +99,10 @@ struct PointEntry {
     illuminance_lx: Option<f64>,
     half_width_lx: Option<f64>,
     direct_lx: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    daylight_factor: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    daylight_factor_half_width: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     samples: Option<u64>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -146,6 +154,12 @@ struct RunEntry<'a> {
     invalid_contributions: u64,
 }
 
+/// What shines from outside.
+#[derive(Serialize)]
+struct OutsideEntry {
+    horizontal_illuminance_lx: f64,
+}
+
 /// What of the run was done before it was gone on with.
 #[derive(Serialize)]
 struct EarlierEntry {
@@ -190,8 +204,9 @@ impl<'a> Document<'a> {
         Self {
             format: FORMAT,
             biased: report.biased,
-            sensors: report.sensors.iter().map(|s| SensorEntry::new(s, &report.run)).collect(),
+            sensors: report.sensors.iter().map(|s| SensorEntry::new(s, report)).collect(),
             cameras: report.cameras.iter().map(CameraEntry::new).collect(),
+            outside: report.outside.map(OutsideEntry::new),
             run: RunEntry::new(&report.run, !report.sensors.is_empty()),
             explain: report.explanation.as_ref().map(ExplanationEntry::new),
             findings: report.findings.iter().map(FindingEntry::new).collect(),
@@ -201,12 +216,13 @@ impl<'a> Document<'a> {
 }
 
 impl<'a> SensorEntry<'a> {
-    fn new(sensor: &'a SensorReport, run: &Run) -> Self {
+    fn new(sensor: &'a SensorReport, report: &Report) -> Self {
+        let points = (0..sensor.points.len()).map(|p| PointEntry::new(sensor, p, report));
         Self {
             name: &sensor.name,
             kind: if sensor.grid.is_some() { "grid" } else { "points" },
             counts: sensor.grid.map(|grid| grid.counts),
-            points: (0..sensor.points.len()).map(|p| PointEntry::new(sensor, p, run)).collect(),
+            points: points.collect(),
             summary: SummaryEntry::new(sensor),
         }
     }
@@ -261,17 +277,28 @@ fn selected(estimator: EstimatorKind, decisions: &Decisions) -> &'static str {
 }
 
 impl PointEntry {
-    fn new(sensor: &SensorReport, number: usize, run: &Run) -> Self {
+    fn new(sensor: &SensorReport, number: usize, report: &Report) -> Self {
         let point = &sensor.points[number];
+        let outside = report.outside.as_ref();
+        let factor = outside.and_then(|outside| outside.daylight_factor(point.illuminance_lx));
         Self {
             position: point.position_m.to_array(),
             normal: point.normal.to_array(),
             illuminance_lx: point.illuminance_lx.value,
             half_width_lx: point.illuminance_lx.half_width,
             direct_lx: point.direct_lx,
-            samples: Some(point.samples).filter(|samples| *samples != run.samples),
+            daylight_factor: factor.and_then(|factor| factor.value),
+            daylight_factor_half_width: factor.and_then(|factor| factor.half_width),
+            samples: Some(point.samples).filter(|samples| *samples != report.run.samples),
             terms_lx: TermEntry::all(&sensor.terms, |term| term.points_lx[number]),
         }
+    }
+}
+
+impl OutsideEntry {
+    fn new(outside: Outside) -> Self {
+        let Outside { horizontal_illuminance_lx, is_sky_alone: _ } = outside;
+        Self { horizontal_illuminance_lx }
     }
 }
 

@@ -45,7 +45,8 @@ pub fn load(
     let sensors = project.sensors.iter().map(|entry| entry.sensor.clone()).collect();
     let cameras = project.cameras.iter().map(|entry| entry.camera.clone()).collect();
     let places = Places::new(&project, &geometry);
-    let scene = Scene { mesh: geometry.mesh, materials, lights, sensors, cameras };
+    let environment = project.environment.clone();
+    let scene = Scene { mesh: geometry.mesh, materials, lights, environment, sensors, cameras };
     enclosures::light_must_end(&scene, &project)?;
     enclosures::glass_must_be_closed(&scene, &project, &mut warnings);
     checks::places_in_walls(&scene, &project, &mut warnings)?;

@@ -235,6 +235,15 @@ impl<'a> Value<'a> {
         }
     }
 
+    /// A date with a time of day, as it is written.
+    pub(super) fn time_text(&self) -> Result<String, LoadError> {
+        match self.value.get_ref() {
+            DeValue::Datetime(time) => Ok(time.to_string()),
+            DeValue::String(text) => Ok(text.to_string()),
+            _ => Err(self.unexpected("a date and a time such as 2026-03-20T12:00:00")),
+        }
+    }
+
     pub(super) fn boolean(&self) -> Result<bool, LoadError> {
         match self.value.get_ref() {
             DeValue::Boolean(value) => Ok(*value),

@@ -12,6 +12,7 @@ mod lights;
 mod luminaires;
 mod materials;
 mod names;
+mod outside;
 mod pane;
 mod renamed;
 mod sensors;
@@ -28,6 +29,7 @@ pub(crate) use luminaires::LuminaireEntry;
 pub(crate) use materials::{MaterialEntry, Scattering};
 pub(crate) use sensors::SensorEntry;
 
+use crate::environment::Environment;
 use crate::{LoadError, Spanned};
 use document::{Section, Source};
 use names::Names;
@@ -58,6 +60,8 @@ pub(crate) struct Project {
     pub(crate) materials: Vec<MaterialEntry>,
     pub(crate) luminaires: Vec<LuminaireEntry>,
     pub(crate) lights: Vec<LightEntry>,
+    /// What shines from outside.
+    pub(crate) environment: Option<Environment>,
     pub(crate) sensors: Vec<SensorEntry>,
     /// At least one where there is no sensor.
     pub(crate) cameras: Vec<CameraEntry>,
@@ -68,8 +72,20 @@ pub(crate) struct Project {
 /// 0.1 kB once it is read, whatever it takes in the file.
 const MAX_PARTS: usize = 1 << 23;
 
-const SECTIONS: [&str; 7] =
-    ["scene", "materials", "luminaires", "lights", "sensors", "cameras", "simulation"];
+const SECTIONS: [&str; 12] = [
+    "scene",
+    "materials",
+    "luminaires",
+    "lights",
+    "site",
+    "sky",
+    "sun",
+    "ground",
+    "openings",
+    "sensors",
+    "cameras",
+    "simulation",
+];
 
 /// Refuses a file that would take too much memory once it is read.
 fn expect_few_parts(source: &Source<'_>, text: &str) -> Result<(), LoadError> {
@@ -106,8 +122,10 @@ impl Project {
         let root = source.root(table.get_ref());
         let luminaires = luminaires::read(&root)?;
         let lights = lights::read(&root)?;
-        if luminaires.is_empty() && lights.is_empty() {
-            return Err(root.error("no lights; expected at least one [[luminaires]] or [[lights]]"));
+        let environment = outside::read(&root)?;
+        if luminaires.is_empty() && lights.is_empty() && environment.is_none() {
+            let message = "no lights; expected at least one [[luminaires]] or [[lights]], or [sky]";
+            return Err(root.error(message));
         }
         let materials = materials::read(&root)?;
         let mut names = Names::default();
@@ -128,6 +146,7 @@ impl Project {
             materials,
             luminaires,
             lights,
+            environment,
             sensors,
             cameras,
             simulation: simulation::read(file, &root)?,

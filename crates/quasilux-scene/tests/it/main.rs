@@ -9,6 +9,7 @@ mod gltf;
 mod materials;
 mod mutations;
 mod obj;
+mod outside;
 mod project;
 mod project_cases;
 mod support;

@@ -2,7 +2,7 @@
 //! `emitting_facets`: `facet_group` chooses a facet and a point on it, by `coarse_facets` and
 //! `seen_triangle`; luminaires with a luminous area in `area_luminaires`, lights without extent
 //! in `pointlike`, what mirrors show of both kinds in `images`; `selection` chooses one of several,
-//! by what `coarse_lights` says.
+//! by what `coarse_lights` says. What comes from outside, in `outside`, has no place.
 
 mod area_luminaires;
 mod coarse_facets;
@@ -10,6 +10,7 @@ mod coarse_lights;
 mod emitting_facets;
 mod facet_group;
 pub(crate) mod images;
+mod outside;
 mod pointlike;
 mod seen_triangle;
 mod selection;
@@ -18,6 +19,7 @@ pub(crate) use area_luminaires::AreaLuminaires;
 pub(crate) use coarse_lights::coarse_tables_bytes;
 pub(crate) use emitting_facets::{EmitterPoint, Emitters};
 pub(crate) use facet_group::EmitterPlace;
+pub(crate) use outside::OutsideLight;
 pub(crate) use pointlike::{Incidence, LightCentre, PointLikes};
 pub(crate) use selection::{Asking, ChoiceWork, tables_bytes};
 
@@ -38,11 +40,13 @@ pub(crate) struct Lights<'a> {
     pub(crate) pointlikes: PointLikes<'a>,
     pub(crate) area_luminaires: AreaLuminaires<'a>,
     pub(crate) emitters: Option<Emitters>,
+    /// The sky and the sun.
+    pub(crate) outside: Option<OutsideLight<'a>>,
     /// Over the point-like lights, the luminaires with an area, and past them all emitting facets
     /// together.
     by_flux: Option<Discrete>,
     fluxes_lm: Vec<f64>,
-    /// Sum of their fluxes in lm.
+    /// Sum of their fluxes in lm, without what comes from outside.
     pub(crate) flux_lm: f64,
 }
 
@@ -74,11 +78,13 @@ impl<'a> Lights<'a> {
         let pointlikes = PointLikes::new(scene, world.bounds());
         let area_luminaires = AreaLuminaires::new(scene, world.bounds());
         let emitters = Emitters::new(scene, world);
+        let outside = OutsideLight::new(scene, world);
         let emitters_lm = emitters.as_ref().map_or(0.0, Emitters::flux_lm);
         let centred = pointlikes.iter().chain(area_luminaires.iter());
         let fluxes: Vec<f64> = centred.map(|light| light.flux_lm).chain([emitters_lm]).collect();
         let (by_flux, flux_lm) = (Discrete::new(&fluxes), fluxes.iter().sum());
-        Self { pointlikes, area_luminaires, emitters, by_flux, fluxes_lm: fluxes, flux_lm }
+        let fluxes_lm = fluxes;
+        Self { pointlikes, area_luminaires, emitters, outside, by_flux, fluxes_lm, flux_lm }
     }
 
     /// An illuminance in lx that is large for this scene: what each light gives, on average over
@@ -93,7 +99,9 @@ impl<'a> Lights<'a> {
             let distance_m = to_box_m.max(near_m);
             flux_lm / (4.0 * PI * distance_m * distance_m)
         });
-        centred.sum::<f64>() + self.emitters.as_ref().map_or(0.0, Emitters::largest_lx)
+        let of_emitters = self.emitters.as_ref().map_or(0.0, Emitters::largest_lx);
+        let of_outside = self.outside.as_ref().map_or(0.0, OutsideLight::reference_lx);
+        centred.sum::<f64>() + of_emitters + of_outside
     }
 
     /// Number of lights, all emitting facets counted as one.

@@ -52,7 +52,7 @@ impl SeenTriangle {
         Some(Self { place, ways_m, corners: [a, b, c], n, height_m, ratio })
     }
 
-    fn solid_angle_sr(&self) -> f64 {
+    pub(super) fn solid_angle_sr(&self) -> f64 {
         let [y, x] = self.ratio;
         2.0 * libm::atan2(y, x)
     }

@@ -16,6 +16,7 @@
 mod connect;
 mod direct_light;
 mod map_end;
+mod outside;
 mod specular_way;
 mod virtual_light;
 
@@ -44,6 +45,7 @@ use crate::world::visibility::{Answer, ShadowQueue};
 use crate::world::{Interaction, RayOrigin};
 use connect::Connection;
 use glam::DVec3;
+use outside::AskedOutside;
 use quasilux_bvh::RayQuery;
 use quasilux_sampling::Sampler;
 use quasilux_sampling::warp::sample_cosine_hemisphere;
@@ -87,6 +89,9 @@ pub(crate) struct Path<'p, S> {
     asked_from: Option<Asking>,
     /// The mirrors or panes since then, where its last vertex asked for area lights behind them.
     specular_way: Option<SpecularWay>,
+    /// Where and how it last asked for light from outside, if it left along a direction that could
+    /// have been asked along.
+    asked_outside: Option<AskedOutside>,
     /// Factors from radiance along the path to what its start seeks.
     beta: S,
     /// The same for what the next surface emits itself.
@@ -168,6 +173,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
             pdf_sr,
             asked_from: None,
             specular_way: None,
+            asked_outside: None,
             beta,
             beta_emitted: beta,
             bounces_asked: 0,
@@ -201,7 +207,9 @@ impl<'p, S: Spectrum> Path<'p, S> {
         self.sample_direct_emitters(context, &vertex, work);
         self.sample_direct_emitter_images(context, &vertex, work);
         self.sample_direct_area_luminaires(context, &vertex, work);
+        self.sample_direct_outside(context, &vertex, work);
         self.connect(context, &vertex, work);
+        self.asked_outside = self.pdf_sr.map(|pdf_sr| AskedOutside::new(&vertex, pdf_sr));
         self.specular_way = self.pdf_sr.and_then(|pdf_sr| self.specular_way(context, pdf_sr));
         let cos = n.dot(self.direction);
         self.subpath = self.subpath.map(|start| start.scattered(cos, cos * FRAC_1_PI, 0.0));
@@ -269,7 +277,10 @@ impl<'p, S: Spectrum> Path<'p, S> {
         if let Some(record) = self.records.last_mut() {
             record.begin([before, self.found.indirect]);
         }
-        let Some(at) = at else { return false };
+        let Some(at) = at else {
+            self.add_outside(context, bounces);
+            return false;
+        };
         let surface = &Surface::new(&context.world, at, self.direction);
         let &Surface { bsdf, wo, .. } = surface;
         if !self.takes_from_virtual_lights(bsdf, at) {
@@ -289,8 +300,8 @@ impl<'p, S: Spectrum> Path<'p, S> {
         let onward = self
             .end_on_map(context, bounces, at, albedo)
             .unwrap_or_else(|| self.russian_roulette(context, bounces, albedo));
-        let seeks_emitters = onward.emitted != 0.0 && context.lights.emitters.is_some();
-        if onward.everything == 0.0 && !seeks_emitters {
+        let can_be_met = context.lights.emitters.is_some() || context.lights.outside.is_some();
+        if onward.everything == 0.0 && !(onward.emitted != 0.0 && can_be_met) {
             return false;
         }
         self.scatter(context, at, &Scattering { bounces, surface, goes_on, onward })
@@ -307,8 +318,9 @@ impl<'p, S: Spectrum> Path<'p, S> {
         work: &mut PathWork<S>,
     ) {
         let bsdf = surface.bsdf;
-        // Past mirrors alone, paths find nothing but facets that emit.
-        self.found.reflected |= !bsdf.is_specular() || context.lights.emitters.is_some();
+        // Past mirrors alone, paths find nothing but facets that emit and what is outside.
+        let can_be_met = context.lights.emitters.is_some() || context.lights.outside.is_some();
+        self.found.reflected |= !bsdf.is_specular() || can_be_met;
         self.bounces_asked = bounces + 1;
         if let (0, Some(partition)) = (bounces, self.partition)
             && bsdf.keeps_illuminance()
@@ -350,6 +362,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
             );
         }
         self.note_specular_way(context, at, wo, &next);
+        self.note_asked_outside(context, at, surface, &next);
         self.subpath = self.subpath.map(|subpath| scattered(subpath, bsdf, wo, next.wi));
         let world = &context.world;
         self.from =

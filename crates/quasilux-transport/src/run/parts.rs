@@ -277,7 +277,7 @@ fn add<'b>(
 /// SHA-256 of all that the sums of a part hang on: the settings, the number of samples and the
 /// scene without its cameras.
 fn fingerprint(scene: &Scene, settings: &Settings, samples: u64) -> [u8; 32] {
-    let Scene { mesh, materials, lights, sensors, cameras: _ } = scene;
+    let Scene { mesh, materials, lights, environment, sensors, cameras: _ } = scene;
     let mut text = Hashed(Sha256::new());
     for position in &mesh.positions {
         position.to_array().iter().for_each(|x| text.0.update(x.to_bits().to_le_bytes()));
@@ -286,7 +286,10 @@ fn fingerprint(scene: &Scene, settings: &Settings, samples: u64) -> [u8; 32] {
     numbers.for_each(|number| text.0.update(number.to_le_bytes()));
     let lengths = [mesh.positions.len(), mesh.triangles.len()];
     // Hashing a text cannot fail.
-    let _ = write!(text, "{lengths:?}{materials:?}{lights:?}{sensors:?}{settings:?}{samples}");
+    let _ = write!(
+        text,
+        "{lengths:?}{materials:?}{lights:?}{environment:?}{sensors:?}{settings:?}{samples}"
+    );
     text.0.finalize().into()
 }
 

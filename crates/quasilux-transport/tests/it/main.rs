@@ -34,6 +34,7 @@ mod mirrored_area_lights;
 mod mirrored_light;
 mod narrow_lobes;
 mod openings;
+mod outside;
 mod photon_orders;
 mod pictures;
 mod ranges;

@@ -28,6 +28,7 @@ pub(crate) fn room(size: DVec3, bsdf: Bsdf) -> Scene {
         materials: vec![Material { name: "walls".to_owned(), bsdf }],
         lights: Vec::new(),
         sensors: Vec::new(),
+        environment: None,
         cameras: Vec::new(),
     }
 }

@@ -86,7 +86,9 @@ impl<'a, S: Spectrum> Witness<'a, S> {
         settings: &Settings,
     ) -> Option<Self> {
         let targets = targets(scene);
+        // Its photons leave lamps alone.
         let is_of_use = !targets.is_empty()
+            && scene.environment.is_none()
             && settings.max_bounces != Some(0)
             && settings.effective_replicates() > 1;
         if !is_of_use {

@@ -36,6 +36,7 @@ impl<S: Spectrum> Path<'_, S> {
         self.sample_direct_images(context, &vertex, work);
         self.sample_direct_emitters(context, &vertex, work);
         self.sample_direct_emitter_images(context, &vertex, work);
+        self.sample_direct_outside(context, &vertex, work);
         self.connect(context, &vertex, work);
     }
 
@@ -236,7 +237,7 @@ impl<S: Spectrum> Path<'_, S> {
         })
     }
 
-    fn ask(
+    pub(super) fn ask(
         &self,
         light_sample: Option<LightSample<S>>,
         vertex: &Vertex<'_, S>,

@@ -66,6 +66,7 @@ fn room(size: DVec3, materials: [Bsdf; 7], lights: Vec<Light>) -> Scene {
         materials: materials.to_vec(),
         lights,
         sensors: Vec::new(),
+        environment: None,
         cameras: Vec::new(),
     }
 }

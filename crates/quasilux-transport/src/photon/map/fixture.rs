@@ -20,6 +20,7 @@ pub(in crate::photon) fn square() -> World<f64> {
         },
         materials: vec![Material { name: "grey".to_owned(), bsdf }],
         lights: Vec::new(),
+        environment: None,
         cameras: Vec::new(),
         sensors: Vec::new(),
     };

@@ -1,0 +1,86 @@
+//! Light from outside on a path: asked for at its vertices, and found where it leaves the scene.
+
+use super::{Path, PathWork};
+use crate::bsdf::BsdfSample;
+use crate::context::Context;
+use crate::lights::Asking;
+use crate::purpose::Purpose;
+use crate::spectrum::Spectrum;
+use crate::world::Interaction;
+use crate::world::vertex::{Surface, Vertex};
+use quasilux_sampling::Sampler;
+
+/// How a vertex asked for light along the direction in which the path left it.
+#[derive(Clone, Copy)]
+pub(super) struct AskedOutside {
+    place: Asking,
+    /// Density in sr^-1 of the direction.
+    pdf_sr: f64,
+}
+
+impl AskedOutside {
+    pub(super) fn new<S: Spectrum>(vertex: &Vertex<'_, S>, pdf_sr: f64) -> Self {
+        Self { place: Asking::at(vertex), pdf_sr }
+    }
+}
+
+impl<S: Spectrum> Path<'_, S> {
+    /// Asks for what comes through one point of the openings, and from one of the sun.
+    pub(super) fn sample_direct_outside(
+        &mut self,
+        context: &Context<'_, S>,
+        vertex: &Vertex<'_, S>,
+        work: &mut PathWork<S>,
+    ) {
+        let Some(outside) = &context.lights.outside else { return };
+        let surface = self.bounces_asked;
+        if outside.has_portals() {
+            let purpose = Purpose::Opening { surface };
+            let u = context.draw(&mut self.sampler, purpose, Sampler::next_2d);
+            self.ask(outside.light_sample(vertex, u), vertex, work);
+        }
+        if outside.has_sun() {
+            let purpose = Purpose::Sun { surface };
+            let u = context.draw(&mut self.sampler, purpose, Sampler::next_2d);
+            self.ask(outside.sun_sample(vertex, u), vertex, work);
+        }
+    }
+
+    /// Notes how the vertex that it leaves asked along its new direction: panes that let it
+    /// straight through change nothing.
+    pub(super) fn note_asked_outside(
+        &mut self,
+        context: &Context<'_, S>,
+        at: &Interaction,
+        surface: &Surface<'_, S>,
+        next: &BsdfSample<S>,
+    ) {
+        if context.lights.outside.is_none() {
+            return;
+        }
+        let is_straight = || {
+            let is_pane = context.world.bsdf(at).straight_transmittance(1.0).is_some();
+            is_pane && next.wi.z < 0.0
+        };
+        let vertex = Vertex::on(&context.world, at, surface, self.beta);
+        self.asked_outside = match next.pdf_sr {
+            Some(pdf_sr) => Some(AskedOutside::new(&vertex, pdf_sr)),
+            None => self.asked_outside.filter(|_| is_straight()),
+        };
+    }
+
+    /// Adds what it finds where it leaves the scene.
+    pub(super) fn add_outside(&mut self, context: &Context<'_, S>, bounces: u32) {
+        let Some(outside) = &context.lights.outside else { return };
+        let mut found_cd_m2 = outside.luminance_cd_m2(self.direction);
+        match self.asked_outside {
+            Some(AskedOutside { place, pdf_sr }) => {
+                let ratio = outside.pdf_sr(place, self.direction) / pdf_sr;
+                found_cd_m2 /= 1.0 + ratio * ratio;
+            }
+            // Nobody can have asked for the sun along this way.
+            None => found_cd_m2 += outside.sun_cd_m2(self.direction),
+        }
+        self.found.add(bounces, self.beta_emitted * found_cd_m2);
+    }
+}
