@@ -35,7 +35,10 @@ pub(crate) struct Expectation {
     direct_lm: Option<f64>,
     /// Every point where not given.
     point: Option<usize>,
-    pub(crate) value: f64,
+    value: Option<f64>,
+    /// In place of `value` and `point`: one value a point.
+    #[serde(default)]
+    values: Vec<f64>,
     /// Allowed beyond the interval, as a share of `value`.
     tolerance_rel: f64,
     pub(crate) why: String,
@@ -104,10 +107,11 @@ impl Expectation {
         };
         match (&self.sensor, self.sensors.as_slice(), direct_lm) {
             (None, [_, ..], Some(direct_lm)) => {
+                let expected_lm = self.one_value()?;
                 let grids = self.sensors.iter().map(|name| sensor(report, name));
                 let Figure { value, half_width } = flux_lm(&grids.collect::<Result<Vec<_>, _>>()?)?;
                 let flux_lm = Figure { value: value.map(|all_lm| all_lm - direct_lm), half_width };
-                Ok(vec![self.verdict(self.sensors.join(" + "), flux_lm)])
+                Ok(vec![self.verdict(self.sensors.join(" + "), expected_lm, flux_lm)])
             }
             (Some(name), [], None) => self.judge_sensor(sensor(report, name)?),
             _ => Err(CliError::new(
@@ -120,7 +124,8 @@ impl Expectation {
     fn judge_sensor(&self, sensor: &SensorReport) -> Result<Vec<Verdict>, CliError> {
         let points = match (self.figure.is_of_points(), self.point) {
             (false, None) => {
-                return Ok(vec![self.verdict(sensor.name.clone(), self.summary_figure(sensor))]);
+                let (name, got) = (sensor.name.clone(), self.summary_figure(sensor));
+                return Ok(vec![self.verdict(name, self.one_value()?, got)]);
             }
             (false, Some(_)) => {
                 return Err(CliError::new("a summary figure has no point"));
@@ -132,26 +137,46 @@ impl Expectation {
                 return Err(CliError::new(message));
             }
         };
-        let verdict = |point| {
-            self.verdict(format!("{}[{point}]", sensor.name), self.point_figure(sensor, point))
+        let verdict = |point: usize| {
+            let value = match self.values.get(point) {
+                Some(value) => *value,
+                None => self.one_value()?,
+            };
+            let place = format!("{}[{point}]", sensor.name);
+            Ok(self.verdict(place, value, self.point_figure(sensor, point)))
         };
-        Ok(points.map(verdict).collect())
+        if !self.values.is_empty() && (points.len(), points.start) != (self.values.len(), 0) {
+            return Err(CliError::new(format!(
+                "`values` has {} of the {} points of sensor \"{}\", and no `point` beside it",
+                self.values.len(),
+                sensor.points.len(),
+                sensor.name
+            )));
+        }
+        points.map(verdict).collect()
+    }
+
+    /// The value that holds for all that is looked at.
+    fn one_value(&self) -> Result<f64, CliError> {
+        self.value.filter(|_| self.values.is_empty()).ok_or_else(|| {
+            CliError::new("an expectation has a `value`, or `values` of the points of a sensor")
+        })
     }
 
     /// Of a figure at `place`.
-    fn verdict(&self, place: String, got: Figure) -> Verdict {
+    fn verdict(&self, place: String, expected: f64, got: Figure) -> Verdict {
         let is_exact = self.figure == FigureName::DirectLx;
         let holds = match (got.value, if is_exact { Some(0.0) } else { got.half_width }) {
             (Some(value), Some(half_width)) => {
-                (value - self.value).abs() <= half_width + self.tolerance_rel * self.value.abs()
+                (value - expected).abs() <= half_width + self.tolerance_rel * expected.abs()
             }
             // Where no light was found there is no interval, and none was expected.
-            (Some(value), None) => value == 0.0 && self.value == 0.0,
+            (Some(value), None) => value == 0.0 && expected == 0.0,
             (None, _) => false,
         };
         Verdict {
             what: format!("{place} {}", self.figure.name()),
-            expected: self.value,
+            expected,
             got,
             holds,
             why: self.why.clone(),

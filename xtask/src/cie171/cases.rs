@@ -3,7 +3,7 @@
 use super::factors::{Point, configuration_factor, solid_angle_sr};
 use super::geometry::{BOX, CUBE_M, FACES, PANEL, ROOM_M};
 use super::luminaire;
-use super::project::{Case, Expectation, Material, Project, Sensor, Tolerance};
+use super::project::{Case, Expectation, Material, Project, Sensor, Tolerance, Value};
 use std::f64::consts::PI;
 
 /// Of the panel of case 5.3.
@@ -204,7 +204,7 @@ fn points(
         figure,
         direct_lm: None,
         point: Some(point),
-        value: value(*at),
+        value: Value::One(value(*at)),
         why: why.to_owned(),
     };
     places.iter().enumerate().map(expectation).collect()
@@ -218,7 +218,7 @@ fn lit(sensor: &'static str, value: f64) -> Expectation {
         figure: "direct_lx",
         direct_lm: None,
         point: None,
-        value,
+        value: Value::One(value),
         why,
     }
 }
@@ -231,7 +231,7 @@ fn all_flux(value: f64) -> Expectation {
         figure: "flux_lm",
         direct_lm: None,
         point: None,
-        value,
+        value: Value::One(value),
         why,
     }
 }
@@ -241,7 +241,14 @@ fn reflected_flux(value: f64) -> Expectation {
     let why =
         "what is reflected again and again: flux x reflectance / (1 - reflectance)".to_owned();
     let (figure, direct_lm) = ("indirect_flux_lm", Some(FLUX_LM));
-    Expectation { sensors: FACES.to_vec(), figure, direct_lm, point: None, value, why }
+    Expectation {
+        sensors: FACES.to_vec(),
+        figure,
+        direct_lm,
+        point: None,
+        value: Value::One(value),
+        why,
+    }
 }
 
 /// The mean over a face of the black room with an isotropic source in its middle.
@@ -255,7 +262,7 @@ fn face_average(face: usize, name: &'static str) -> Expectation {
         figure: "average_lx",
         direct_lm: None,
         point: None,
-        value: FLUX_LM * share / (4.0 * a * b),
+        value: Value::One(FLUX_LM * share / (4.0 * a * b)),
         why: "flux x solid angle / 4 pi / area".to_owned(),
     }
 }
@@ -273,8 +280,9 @@ fn seen_over_box(at: Point) -> [Point; 4] {
 fn point_light() -> Project {
     Project {
         what: "CIE 171:2006, case 5.2: a point light with a cosine distribution above a black \
-            floor",
-        geometry: vec!["cie171_room.obj"],
+            floor"
+            .to_owned(),
+        geometry: vec!["cie171_room.obj".to_owned()],
         materials: faces(|_| 0.0),
         light: luminaire_table("cie171_cosine.ies", ABOVE_FLOOR, DOWN),
         sensors: vec![Sensor::Points { name: "floor", places: plane_places(), normal: UP }],
@@ -289,8 +297,9 @@ fn area_light() -> Project {
         "[[lights]]\nkind = \"area\"\nmaterial = \"panel\"\nluminance_cd_m2 = {PANEL_CD_M2}\n"
     );
     Project {
-        what: "CIE 171:2006, case 5.3: a panel of 1 m x 1 m in the ceiling of a black room",
-        geometry: vec!["cie171_room.obj", "cie171_panel.obj"],
+        what: "CIE 171:2006, case 5.3: a panel of 1 m x 1 m in the ceiling of a black room"
+            .to_owned(),
+        geometry: vec!["cie171_room.obj".to_owned(), "cie171_panel.obj".to_owned()],
         materials,
         light,
         sensors: vec![wall(&WALL_A_TO_F_M), floor(&FLOOR_G_TO_N_M)],
@@ -300,8 +309,9 @@ fn area_light() -> Project {
 
 fn flux() -> Project {
     Project {
-        what: "CIE 171:2006, case 5.4: all light of a lamp lands on the faces of a black room",
-        geometry: vec!["cie171_room.obj"],
+        what: "CIE 171:2006, case 5.4: all light of a lamp lands on the faces of a black room"
+            .to_owned(),
+        geometry: vec!["cie171_room.obj".to_owned()],
         materials: faces(|_| 0.0),
         light: lamp(ROOM_M),
         sensors: face_means(ROOM_M),
@@ -313,8 +323,8 @@ fn diffuse_reflection() -> Project {
     let ceiling =
         Sensor::Points { name: "ceiling", places: ceiling_places(&CEILING_G_TO_J_M), normal: DOWN };
     Project {
-        what: "CIE 171:2006, case 5.6: light reflected by an evenly lit floor",
-        geometry: vec!["cie171_room.obj"],
+        what: "CIE 171:2006, case 5.6: light reflected by an evenly lit floor".to_owned(),
+        geometry: vec!["cie171_room.obj".to_owned()],
         materials: faces(|face| if face == "floor" { FLOOR } else { 0.0 }),
         light: luminaire_table("cie171_floor.ies", ABOVE_FLOOR, DOWN),
         sensors: vec![floor(&FLOOR_G_TO_N_M), wall(&WALL_B_TO_F_M), ceiling],
@@ -328,8 +338,9 @@ fn obstruction() -> Project {
     let places = [0.25, 1.5, 2.75].map(|z| [1.0, ROOM_M[1], z]);
     let back = Sensor::Points { name: "back", places: places.to_vec(), normal: [0.0, -1.0, 0.0] };
     Project {
-        what: "CIE 171:2006, case 5.7: light reflected by an evenly lit wall, behind a box",
-        geometry: vec!["cie171_room.obj", "cie171_box.obj"],
+        what: "CIE 171:2006, case 5.7: light reflected by an evenly lit wall, behind a box"
+            .to_owned(),
+        geometry: vec!["cie171_room.obj".to_owned(), "cie171_box.obj".to_owned()],
         materials,
         light: luminaire_table("cie171_wall.ies", BEFORE_WALL, FORWARD),
         sensors: vec![back, wall(&WALL_A_TO_F_M), floor(&FLOOR_G_TO_K_M)],
@@ -339,8 +350,8 @@ fn obstruction() -> Project {
 
 fn cube(reflectance: f64) -> Project {
     Project {
-        what: "CIE 171:2006, case 5.8: a lamp in the middle of a diffuse cube",
-        geometry: vec!["cie171_cube.obj"],
+        what: "CIE 171:2006, case 5.8: a lamp in the middle of a diffuse cube".to_owned(),
+        geometry: vec!["cie171_cube.obj".to_owned()],
         materials: faces(|_| reflectance),
         light: lamp(CUBE_M),
         sensors: face_means(CUBE_M),
@@ -420,7 +431,7 @@ mod tests {
         for (file, sensor, values) in printed {
             let case = cases.iter().find(|case| case.file == file).unwrap();
             let own = case.expect.iter().filter(|e| e.sensors == [sensor] && e.point.is_some());
-            let got: Vec<f64> = own.map(|expectation| expectation.value).collect();
+            let got: Vec<f64> = own.map(|expectation| expectation.value.one()).collect();
             assert_eq!(got.len(), values.len(), "{file} {sensor}");
             for (got, printed) in got.iter().zip(values) {
                 assert!(

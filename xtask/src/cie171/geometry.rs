@@ -54,12 +54,12 @@ fn box_faces([low, high]: [Point; 2]) -> [[Point; 4]; 6] {
 }
 
 /// Four corners of a face, named as its material.
-struct Quad {
-    material: &'static str,
-    corners: [Point; 4],
+pub(super) struct Quad {
+    pub(super) material: &'static str,
+    pub(super) corners: [Point; 4],
 }
 
-fn file(quads: impl IntoIterator<Item = Quad>) -> String {
+pub(super) fn file(quads: impl IntoIterator<Item = Quad>) -> String {
     let mut text = "# Written by `cargo xtask cie171`; metres, z up\n".to_owned();
     for Quad { material, corners } in quads {
         writeln!(text, "o {material}\nusemtl {material}").expect("strings grow");

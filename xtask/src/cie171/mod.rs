@@ -5,10 +5,12 @@
 //! above the middle of its foot, G to N along the floor's centre line.
 
 mod cases;
+mod daylight;
 mod factors;
 mod geometry;
 mod luminaire;
 mod project;
+mod sky;
 
 use crate::generated::{self, File};
 use std::path::Path;
@@ -31,6 +33,7 @@ fn files() -> Vec<File> {
     for case in cases::cases() {
         files.push((format!("cases/{}.toml", case.file), case.text()));
     }
+    files.extend(daylight::files());
     files
 }
 

@@ -5,8 +5,8 @@ use std::fmt::Write;
 
 /// A project: what it shows, its geometry, materials with reflectances, light and sensors.
 pub(super) struct Project {
-    pub(super) what: &'static str,
-    pub(super) geometry: Vec<&'static str>,
+    pub(super) what: String,
+    pub(super) geometry: Vec<String>,
     pub(super) materials: Vec<Material>,
     /// A table of the project file, its header included.
     pub(super) light: String,
@@ -56,7 +56,7 @@ pub(super) struct Case {
     pub(super) expect: Vec<Expectation>,
 }
 
-/// One value, or the same for all points of a sensor.
+/// One value, or the same for all points of a sensor, or one for each.
 pub(super) struct Expectation {
     /// One or, for a flux, several.
     pub(super) sensors: Vec<&'static str>,
@@ -64,8 +64,25 @@ pub(super) struct Expectation {
     /// Of an indirect flux: what comes straight from the lights.
     pub(super) direct_lm: Option<f64>,
     pub(super) point: Option<usize>,
-    pub(super) value: f64,
+    pub(super) value: Value,
     pub(super) why: String,
+}
+
+/// What is expected.
+pub(super) enum Value {
+    One(f64),
+    /// Of each point.
+    Each(Vec<f64>),
+}
+
+#[cfg(test)]
+impl Value {
+    pub(super) fn one(&self) -> f64 {
+        match self {
+            Self::One(value) => *value,
+            Self::Each(values) => panic!("{values:?} is not one value"),
+        }
+    }
 }
 
 /// Allowed beyond the interval.
@@ -131,6 +148,18 @@ impl Case {
 }
 
 impl Expectation {
+    /// Illuminances of all points of a sensor.
+    pub(super) fn of_points(sensor: &'static str, values: Vec<f64>, why: &str) -> Self {
+        Self {
+            sensors: vec![sensor],
+            figure: "illuminance_lx",
+            direct_lm: None,
+            point: None,
+            value: Value::Each(values),
+            why: why.to_owned(),
+        }
+    }
+
     fn text(&self) -> String {
         let sensor = match self.sensors.as_slice() {
             [one] => format!("sensor = \"{one}\""),
@@ -138,12 +167,17 @@ impl Expectation {
         };
         let direct = self.direct_lm.map_or_else(String::new, |lm| format!("direct_lm = {lm}\n"));
         let point = self.point.map_or_else(String::new, |point| format!("point = {point}\n"));
+        let value = match &self.value {
+            Value::One(value) => format!("value = {}", six_digits(*value)),
+            Value::Each(values) => {
+                let values = values.iter().map(|value| six_digits(*value));
+                format!("values = [{}]", values.collect::<Vec<_>>().join(", "))
+            }
+        };
         format!(
-            "\n[[expect]]\n{sensor}\nfigure = \"{}\"\n{direct}{point}value = {}\ntolerance_rel = \
+            "\n[[expect]]\n{sensor}\nfigure = \"{}\"\n{direct}{point}{value}\ntolerance_rel = \
              {TOLERANCE}\nwhy = \"{}\"\n",
-            self.figure,
-            six_digits(self.value),
-            self.why
+            self.figure, self.why
         )
     }
 }
