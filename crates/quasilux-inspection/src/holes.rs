@@ -1,7 +1,7 @@
 //! Holes in a room: light that leaves, and the edges around the way that it takes.
 //!
 //! A scene counts as a room where most directions from its lit places meet a surface. Openings that
-//! a lamp shines or a camera looks through from outside are meant. A hole's border is a loop of
+//! a lamp shines or a camera looks through from outside are meant, and all of them under a sky. A hole's border is a loop of
 //! edges that belong to one triangle each, and that leaving rays go through.
 
 use crate::finding::{Check, Findings};
@@ -67,6 +67,9 @@ struct Hole {
 }
 
 pub(crate) fn check(survey: &Survey<'_>, findings: &mut Findings<'_>) {
+    if survey.probe.scene.environment.is_some() {
+        return;
+    }
     let surroundings = surroundings(survey);
     let leaving = surroundings.leaving.len() as f64 / surroundings.rays.max(1) as f64;
     if leaving < MIN_LEAVING || !surroundings.is_room() || is_looked_through(survey) {

@@ -5,7 +5,7 @@ use crate::project::Project;
 use glam::DVec3;
 use quasilux_inspection::Finding;
 use quasilux_report::number::{brief, plural};
-use quasilux_scene::{Light, Scene, SensorShape};
+use quasilux_scene::{Environment, Light, Scene, SensorShape};
 use std::fmt::Write;
 
 /// Lights, sensors, materials that are listed.
@@ -35,9 +35,23 @@ pub(super) fn summary(project: &Project) -> String {
         "flux",
         vec![format!("{flux_lm} lm of {}", plural(scene.lights.len() as u64, "light"))],
     );
+    section("outside", scene.environment.iter().map(outside).collect());
     section("sensors", scene.sensors.iter().map(sensor).collect());
     section("cameras", scene.cameras.iter().map(camera).collect());
     text
+}
+
+fn outside(environment: &Environment) -> String {
+    let lx = brief(environment.horizontal_illuminance_lx(), 5);
+    let sun = match environment.sun {
+        Some(sun) => {
+            let (altitude, azimuth) = (sun.centre.altitude_deg, sun.centre.azimuth_deg);
+            format!("the sun at {altitude:.1} degrees, {azimuth:.1} degrees from north")
+        }
+        None => "no sun".to_owned(),
+    };
+    let openings = plural(environment.openings.len() as u64, "named opening");
+    format!("{lx} lx on a horizontal plane, {sun}, {openings}")
 }
 
 /// Findings and warnings, or that there are none.
