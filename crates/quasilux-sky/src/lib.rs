@@ -28,6 +28,7 @@ mod point;
 mod quadrature;
 mod sky;
 mod sun;
+mod weather;
 
 pub use cie::CieType;
 pub use distribution::Distribution;
@@ -37,6 +38,10 @@ pub use perez::{Irradiance, Perez};
 pub use point::SkyPoint;
 pub use sky::{Sky, SkyLevel};
 pub use sun::{SUN_RADIUS_DEG, Site, solid_angle_of_the_sun_sr, sun_luminance_cd_m2};
+
+pub use weather::{
+    ParsedWeather, Weather, WeatherHour, WeatherLight, WeatherUnits, WeatherWarning,
+};
 
 /// Tests the example of the README.
 #[cfg(doctest)]

@@ -10,7 +10,7 @@ const MAY_USE: [(&str, &[&str]); 16] = [
     ("quasilux-stats", &[]),
     ("quasilux-corpus", &[]),
     ("quasilux-text", &[]),
-    ("quasilux-sky", &[]),
+    ("quasilux-sky", &["quasilux-text"]),
     ("quasilux-photometry", &["quasilux-sampling", "quasilux-text"]),
     ("quasilux-bsdf", &["quasilux-photometry", "quasilux-sampling", "quasilux-text"]),
     ("quasilux-scene", &["quasilux-bsdf", "quasilux-photometry", "quasilux-sky", "quasilux-text"]),

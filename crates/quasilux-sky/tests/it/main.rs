@@ -4,6 +4,7 @@ mod cie;
 mod levels;
 mod perez;
 mod sun;
+mod weather;
 
 use quasilux_sky::SkyPoint;
 

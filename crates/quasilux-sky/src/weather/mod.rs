@@ -1,0 +1,137 @@
+//! Weather files: what sun and sky gave to a site, interval by interval.
+//!
+//! EnergyPlus weather (EPW) and Radiance's daylight coefficient format (WEA) are told by their first
+//! line. Values of EPW are means of the interval *before* their time stamp: [`WeatherHour::seconds`]
+//! is its middle, where the sun belongs. WEA gives the middle itself.
+
+mod epw;
+mod row;
+mod wea;
+
+use crate::sun::Site;
+use quasilux_text::{ParseError, Position, TextWarning, Warning, Warnings, decode, lines};
+use row::Row;
+
+/// A weather file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Weather {
+    /// What the file calls the place.
+    pub place: String,
+    /// Where it is.
+    pub site: Site,
+    /// What direct and diffuse values mean.
+    pub units: WeatherUnits,
+    /// The intervals, in the order of the file.
+    pub hours: Vec<WeatherHour>,
+}
+
+/// The units of a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WeatherUnits {
+    /// Direct normal and diffuse horizontal irradiance in W/m2.
+    Irradiance,
+    /// Direct and diffuse horizontal irradiance in W/m2.
+    HorizontalIrradiance,
+    /// Direct normal and diffuse horizontal illuminance in lx.
+    Illuminance,
+}
+
+/// An interval, most often of an hour.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WeatherHour {
+    /// The month, from 1.
+    pub month: u32,
+    /// The day of the month, from 1; the 29th of February where the file has it.
+    pub day: u32,
+    /// The middle of the interval in seconds from midnight, by the clock of the site.
+    pub seconds: f64,
+    /// What was measured; `None` where the file has no value.
+    pub light: Option<WeatherLight>,
+    /// The dew point in degrees Celsius; `None` where the file has none.
+    pub dew_point_c: Option<f64>,
+}
+
+/// Light of the sun and of the sky in the units of the file.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WeatherLight {
+    /// Of the sun.
+    pub direct: f64,
+    /// Of the sky, on a horizontal plane.
+    pub diffuse: f64,
+}
+
+/// Deviations that are lived with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum WeatherWarning {
+    /// One of a text file.
+    Text(TextWarning),
+    /// An interval has no direct or no diffuse value: nothing is known of its sky.
+    MissingLight,
+    /// There are more or fewer intervals than a year has.
+    OtherThanAYear,
+}
+
+/// A weather file with what is odd in it.
+#[derive(Clone, Debug)]
+pub struct ParsedWeather {
+    /// The file.
+    pub weather: Weather,
+    /// Deviations that were lived with.
+    pub warnings: Vec<Warning<WeatherWarning>>,
+}
+
+impl From<TextWarning> for WeatherWarning {
+    fn from(warning: TextWarning) -> Self {
+        Self::Text(warning)
+    }
+}
+
+/// Hours of a year without and with a leap day.
+const HOURS: [usize; 2] = [8760, 8784];
+/// More than the sun gives anywhere on the ground.
+const MAX_IRRADIANCE_W_M2: f64 = 2000.0;
+const MAX_ILLUMINANCE_LX: f64 = 250_000.0;
+
+impl Weather {
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// With the line and the column of what is neither EPW nor WEA.
+    pub fn parse(bytes: &[u8]) -> Result<ParsedWeather, ParseError> {
+        let mut warnings = Warnings::default();
+        let text = decode(bytes, &mut warnings);
+        let rows: Vec<Row<'_>> =
+            (1..).zip(lines(&text)).map(|(n, text)| Row::new(n, text)).collect();
+        let first = rows.first().map_or("", Row::text);
+        let weather = if first.starts_with("LOCATION") {
+            epw::read(&rows, &mut warnings)?
+        } else if first.trim_start().starts_with("place") {
+            wea::read(&rows, &mut warnings)?
+        } else {
+            let expected = "LOCATION (EPW) or place (WEA)";
+            return Err(ParseError::new(Position::START, quasilux_text::quoted(first), expected));
+        };
+        Ok(ParsedWeather { weather, warnings: warnings.into_vec() })
+    }
+}
+
+impl WeatherUnits {
+    /// The largest value that one can have.
+    fn most(self) -> f64 {
+        match self {
+            Self::Irradiance | Self::HorizontalIrradiance => MAX_IRRADIANCE_W_M2,
+            Self::Illuminance => MAX_ILLUMINANCE_LX,
+        }
+    }
+}
+
+/// Warns of a file that has not one interval an hour of a year.
+fn expect_a_year(hours: usize, per_hour: usize, warnings: &mut Warnings<WeatherWarning>) {
+    if !HOURS.map(|all| all * per_hour).contains(&hours) {
+        let found = format!("{hours} intervals");
+        let expected =
+            format!("{} or {} (read as they are)", HOURS[0] * per_hour, HOURS[1] * per_hour);
+        warnings.push(WeatherWarning::OtherThanAYear, Position::START, found, expected);
+    }
+}

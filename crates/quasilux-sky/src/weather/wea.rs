@@ -1,0 +1,62 @@
+//! Radiance's WEA: six lines of a header, then month, day, hour, direct and diffuse light.
+
+use super::row::{Row, date, number};
+use super::{Weather, WeatherHour, WeatherLight, WeatherUnits, WeatherWarning, expect_a_year};
+use crate::sun::Site;
+use quasilux_text::{ParseError, Token, Warnings, quoted};
+
+/// Degrees that the sun goes on in an hour.
+const DEGREES_AN_HOUR: f64 = 15.0;
+
+pub(super) fn read(
+    rows: &[Row<'_>],
+    warnings: &mut Warnings<WeatherWarning>,
+) -> Result<Weather, ParseError> {
+    let place = rows[0].text().trim_start().trim_start_matches("place").trim().to_owned();
+    let mut rows = rows[1..].iter().filter(|row| !row.text().trim().is_empty());
+    let mut header = |key: &str, most: f64| {
+        let what = format!("{key} with a number within -{most} and {most}");
+        let row = rows.next().ok_or_else(|| {
+            ParseError::new(quasilux_text::Position::START, "a header that ends early", &what)
+        })?;
+        let fields = row.by_blanks();
+        let name = row.field(&fields, 0, &what)?;
+        if name.text != key {
+            return Err(ParseError::new(name.at, quoted(name.text), &what));
+        }
+        let value = row.field(&fields, 1, &what)?;
+        Ok((value, number(&value, -most..=most, &what)?))
+    };
+    let (_, latitude_deg) = header("latitude", 90.0)?;
+    // West is positive in these files.
+    let (_, longitude_west_deg) = header("longitude", 180.0)?;
+    let (zone, meridian_west_deg) = header("time_zone", DEGREES_AN_HOUR * 15.0)?;
+    header("site_elevation", 1e6)?;
+    let (units_at, units) = header("weather_data_file_units", 3.0)?;
+    let time_zone_h = -meridian_west_deg / DEGREES_AN_HOUR;
+    let site = Site::new(latitude_deg, -longitude_west_deg, time_zone_h)
+        .map_err(|error| ParseError::new(zone.at, error, "a site"))?;
+    let units = match units {
+        1.0 => WeatherUnits::Irradiance,
+        2.0 => WeatherUnits::HorizontalIrradiance,
+        3.0 => WeatherUnits::Illuminance,
+        _ => return Err(ParseError::new(units_at.at, quoted(units_at.text), "1, 2 or 3")),
+    };
+    let hours: Result<Vec<WeatherHour>, ParseError> = rows.map(|row| hour(row, units)).collect();
+    let hours = hours?;
+    expect_a_year(hours.len(), 1, warnings);
+    Ok(Weather { place, site, units, hours })
+}
+
+fn hour(row: &Row<'_>, units: WeatherUnits) -> Result<WeatherHour, ParseError> {
+    let fields = row.by_blanks();
+    let field = |n, what: &str| row.field(&fields, n, what);
+    let [month, day] = date(&field(0, "a month")?, &field(1, "a day")?)?;
+    let what = "the middle of an hour, 0 to 24";
+    let hour = number(&field(2, what)?, 0.0..=24.0, what)?;
+    let what = format!("direct and diffuse light, 0 to {}", units.most());
+    let light = |token: Token<'_>| number(&token, 0.0..=units.most(), &what);
+    let (direct, diffuse) = (light(field(3, &what)?)?, light(field(4, &what)?)?);
+    let light = Some(WeatherLight { direct, diffuse });
+    Ok(WeatherHour { month, day, seconds: 3600.0 * hour, light, dew_point_c: None })
+}
