@@ -1,8 +1,9 @@
 //! Holes in a room: light that leaves, and the edges around the way that it takes.
 //!
 //! A scene counts as a room where most directions from its lit places meet a surface. Openings that
-//! a lamp shines or a camera looks through from outside are meant, and all of them under a sky. A hole's border is a loop of
-//! edges that belong to one triangle each, and that leaving rays go through.
+//! a lamp shines or a camera looks through from outside are meant, and all of them under a sky. A
+//! hole's border is a loop of edges that belong to one triangle each, and that leaving rays go
+//! through.
 
 use crate::finding::{Check, Findings};
 use crate::names;

@@ -1,8 +1,8 @@
 //! Weather files: what sun and sky gave to a site, interval by interval.
 //!
-//! EnergyPlus weather (EPW) and Radiance's daylight coefficient format (WEA) are told by their first
-//! line. Values of EPW are means of the interval *before* their time stamp: [`WeatherHour::seconds`]
-//! is its middle, where the sun belongs. WEA gives the middle itself.
+//! EnergyPlus weather (EPW) and Radiance's format of an hour a line (WEA) are told by their first
+//! line. Values of EPW are means of the interval *before* their time stamp:
+//! [`WeatherHour::seconds`] is its middle, where the sun belongs. WEA gives the middle itself.
 
 mod epw;
 mod row;
