@@ -261,6 +261,14 @@ def test_our_engines_serve_scipy(make):
     assert abs(result.integral - 1.0) < max(6 * result.standard_error, 1e-3)
 
 
+@pytest.mark.parametrize("kind", [qmc.Sobol, qmc.Halton])
+def test_scipy_makes_more_engines_of_the_same_randomization(kind):
+    for name, expected in [("owen", "owen"), ("shift", "shift"), ("none", None), (None, None)]:
+        engine = kind(2, rng=1, randomization=name)
+        assert engine._init_quad["randomization"] == expected
+        kind(rng=2, **engine._init_quad)
+
+
 def test_every_name_of_scipy_is_here():
     assert set(scipy_qmc.__all__) <= set(qmc.__all__)
     for name in scipy_qmc.__all__:

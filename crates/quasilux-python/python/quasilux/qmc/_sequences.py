@@ -166,7 +166,7 @@ class Sobol(_SequenceEngine):
         is_linear = randomization == "linear" or (randomization is None and scramble)
         kind = "linear" if is_linear else _randomization(scramble, randomization)
         super().__init__(d, "sobol", kind, optimization=optimization, rng=rng, seed=seed)
-        self._init_quad |= {"scramble": True, "bits": bits}
+        self._init_quad |= {"scramble": True, "bits": bits, "randomization": _random(randomization)}
 
     def _points_left(self) -> int:
         return self.maxn - self.num_generated
@@ -274,7 +274,7 @@ class Halton(_SequenceEngine):
         self.scramble = scramble
         kind = _randomization(scramble, randomization)
         super().__init__(d, "halton", kind, optimization=optimization, rng=rng, seed=seed)
-        self._init_quad |= {"scramble": True}
+        self._init_quad |= {"scramble": True, "randomization": _random(randomization)}
 
 
 class Faure4(_SequenceEngine):
@@ -446,6 +446,11 @@ def _randomization(scramble: bool, name: str | None) -> str:
             " It must be one of 'owen', 'shift', 'rotation' and 'none'"
         )
     return name
+
+
+def _random(name: str | None) -> str | None:
+    """The randomization of more engines of a kind, which must differ."""
+    return None if name == "none" else name
 
 
 def _check_dimensions(d: object, most: int) -> None:
