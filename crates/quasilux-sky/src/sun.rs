@@ -3,7 +3,7 @@
 use crate::error::SkyError;
 use crate::local_time::LocalTime;
 use crate::point::SkyPoint;
-use libm::cos;
+use libm::sin;
 use solar_positioning::time::JulianDate;
 use solar_positioning::{Location, SolarPositions, delta_t};
 use std::f64::consts::PI;
@@ -56,7 +56,9 @@ impl Site {
 /// The solid angle of the sun's disk in sr.
 #[must_use]
 pub fn solid_angle_of_the_sun_sr() -> f64 {
-    2.0 * PI * (1.0 - cos(SUN_RADIUS_DEG.to_radians()))
+    // One less a small cosine would lose digits.
+    let half = sin(0.5 * SUN_RADIUS_DEG.to_radians());
+    4.0 * PI * half * half
 }
 
 /// The mean luminance of the sun's disk in cd/m2 that gives so many lx on a plane across its rays.
@@ -64,6 +66,6 @@ pub fn solid_angle_of_the_sun_sr() -> f64 {
 pub fn sun_luminance_cd_m2(normal_illuminance_lx: f64) -> f64 {
     // Over the disk the cosine is 1 but for a part of 10^-5, which is counted in: the projected
     // solid angle is pi sin^2 of the radius.
-    let sine = libm::sin(SUN_RADIUS_DEG.to_radians());
+    let sine = sin(SUN_RADIUS_DEG.to_radians());
     normal_illuminance_lx / (PI * sine * sine)
 }

@@ -81,9 +81,8 @@ impl<'a> Lights<'a> {
         let outside = OutsideLight::new(scene, world);
         let emitters_lm = emitters.as_ref().map_or(0.0, Emitters::flux_lm);
         let centred = pointlikes.iter().chain(area_luminaires.iter());
-        let fluxes: Vec<f64> = centred.map(|light| light.flux_lm).chain([emitters_lm]).collect();
-        let (by_flux, flux_lm) = (Discrete::new(&fluxes), fluxes.iter().sum());
-        let fluxes_lm = fluxes;
+        let fluxes_lm: Vec<f64> = centred.map(|light| light.flux_lm).chain([emitters_lm]).collect();
+        let (by_flux, flux_lm) = (Discrete::new(&fluxes_lm), fluxes_lm.iter().sum());
         Self { pointlikes, area_luminaires, emitters, outside, by_flux, fluxes_lm, flux_lm }
     }
 
@@ -102,6 +101,11 @@ impl<'a> Lights<'a> {
         let of_emitters = self.emitters.as_ref().map_or(0.0, Emitters::largest_lx);
         let of_outside = self.outside.as_ref().map_or(0.0, OutsideLight::reference_lx);
         centred.sum::<f64>() + of_emitters + of_outside
+    }
+
+    /// Whether paths can run into light: facets that emit, or what is outside.
+    pub(crate) fn can_be_met(&self) -> bool {
+        self.emitters.is_some() || self.outside.is_some()
     }
 
     /// Number of lights, all emitting facets counted as one.

@@ -8,20 +8,19 @@
 //! place could ask along.
 
 use crate::lights::seen_triangle::SeenTriangle;
-use crate::lights::selection::Asking;
+use crate::lights::selection::{Asking, DEFENSIVE_SHARE};
 use crate::spectrum::Spectrum;
 use crate::world::frame::Frame;
 use crate::world::vertex::Vertex;
 use crate::world::visibility::LightSample;
 use crate::world::{Facet, World};
 use glam::DVec3;
+use quasilux_bvh::{Corners, PreparedRay, Ray, intersect};
 use quasilux_sampling::choose_weights;
 use quasilux_scene::{Environment, Opening, Scene};
-use quasilux_sky::SUN_RADIUS_DEG;
+use quasilux_sky::solid_angle_of_the_sun_sr;
 use std::f64::consts::TAU;
 
-/// Share of choices that trusts no luminance.
-const DEFENSIVE_SHARE: f64 = 0.1;
 /// What a cosine counts at least: openings reach further than their centres.
 const MIN_COSINE: f64 = 0.1;
 
@@ -36,7 +35,7 @@ pub(crate) struct OutsideLight<'a> {
 }
 
 struct Portal {
-    corners: [DVec3; 3],
+    corners: Corners,
     n: DVec3,
 }
 
@@ -45,11 +44,17 @@ struct SunDisk {
     direction: DVec3,
     normal_illuminance_lx: f64,
     luminance_cd_m2: f64,
-    /// One less the cosine of its radius.
-    height: f64,
+    solid_angle_sr: f64,
 }
 
-/// A portal as a place chooses it.
+/// All portals as a place chooses among them, in their order; `None` for those edge-on.
+struct SeenPortals {
+    portals: Vec<Option<Seen>>,
+    /// The sum of the weights.
+    total: f64,
+}
+
+/// A portal with about what comes through it.
 struct Seen {
     triangle: SeenTriangle,
     weight: f64,
@@ -70,17 +75,14 @@ impl<'a> OutsideLight<'a> {
             portals = panes.map(|facet| facet.corners()).collect();
         }
         let portals = portals.into_iter().filter_map(Portal::new).collect();
-        let radius = SUN_RADIUS_DEG.to_radians();
-        let sun = environment.sun.zip(environment.sun_direction()).map(|(sun, direction)| {
-            SunDisk {
+        let sun =
+            environment.sun.zip(environment.sun_direction()).map(|(sun, direction)| SunDisk {
                 frame: Frame::around(direction),
                 direction,
                 normal_illuminance_lx: sun.normal_illuminance_lx,
                 luminance_cd_m2: environment.sun_luminance_cd_m2(),
-                // Differences of cosines would lose digits.
-                height: 2.0 * libm::pow(libm::sin(0.5 * radius), 2.0),
-            }
-        });
+                solid_angle_sr: solid_angle_of_the_sun_sr(),
+            });
         let far_m = world.bounds().map_or(0.0, |[low, high]| low.length().max(high.length()));
         let openings = environment.openings.iter();
         let far_m = openings.map(|it| it.origin.length()).fold(far_m, f64::max);
@@ -110,8 +112,9 @@ impl<'a> OutsideLight<'a> {
 
     /// What it finds of the sun.
     pub(crate) fn sun_cd_m2(&self, direction: DVec3) -> f64 {
-        let on_disk =
-            |sun: &&SunDisk| 0.5 * (direction - sun.direction).length_squared() <= sun.height;
+        // One less the cosine of an angle is half of the squared chord.
+        let chord_squared = |sun: &SunDisk| (direction - sun.direction).length_squared();
+        let on_disk = |sun: &&SunDisk| 0.5 * TAU * chord_squared(sun) <= sun.solid_angle_sr;
         self.sun.as_ref().filter(on_disk).map_or(0.0, |sun| sun.luminance_cd_m2)
     }
 
@@ -123,16 +126,16 @@ impl<'a> OutsideLight<'a> {
         u: [f64; 2],
     ) -> Option<LightSample<S>> {
         let place = Asking::at(vertex);
-        let all = self.seen(place);
-        let choice = choose_weights(u[0], all.iter().map(Seen::weight))?;
-        let portal = &all[choice.index].as_ref()?.triangle;
-        let point = portal.sample_point([choice.u_remapped, u[1]]);
+        let seen = self.seen(place);
+        let choice = choose_weights(u[0], seen.portals.iter().map(Seen::weight))?;
+        let portal = seen.portals[choice.index].as_ref()?;
+        let point = portal.triangle.sample_point([choice.u_remapped, u[1]]);
         let direction = (point - place.position).normalize_or_zero();
         let cos = vertex.cos(direction);
         if cos <= 0.0 {
             return None;
         }
-        let pdf_sr = self.pdf_of(&all, place, direction);
+        let pdf_sr = self.pdf_of(&seen, place, direction);
         let beside_sr = vertex.pdf_sr(direction);
         let lx_sr = self.luminance_cd_m2(direction) * cos;
         let illuminance_lx = lx_sr / (pdf_sr + beside_sr * (beside_sr / pdf_sr));
@@ -152,7 +155,7 @@ impl<'a> OutsideLight<'a> {
         u: [f64; 2],
     ) -> Option<LightSample<S>> {
         let sun = self.sun.as_ref()?;
-        let down = sun.height * u[0];
+        let down = sun.solid_angle_sr / TAU * u[0];
         let aside = (down * (2.0 - down)).sqrt();
         let (sin, cos) = libm::sincos(TAU * u[1]);
         let local = DVec3::new(aside * cos, aside * sin, 1.0 - down);
@@ -161,54 +164,49 @@ impl<'a> OutsideLight<'a> {
         if cos <= 0.0 {
             return None;
         }
-        let solid_angle_sr = TAU * sun.height;
-        let illuminance_lx = sun.luminance_cd_m2 * solid_angle_sr * cos;
+        let illuminance_lx = sun.luminance_cd_m2 * sun.solid_angle_sr * cos;
         let light = vertex.weight(direction) * illuminance_lx;
         LightSample::unless_dark(direction, self.beyond_m, light, illuminance_lx)
     }
 
-    /// The portals as a place sees them, in their order, with about what comes through each.
-    fn seen(&self, place: Asking) -> Vec<Option<Seen>> {
-        let mut all: Vec<Option<Seen>> =
-            self.portals.iter().map(|portal| self.seen_portal(portal, place)).collect();
-        let (total, count) = all
-            .iter()
-            .flatten()
-            .fold((0.0, 0), |(total, count), seen| (total + seen.weight, count + 1));
-        let each = DEFENSIVE_SHARE * total / f64::from(count.max(1));
-        for seen in all.iter_mut().flatten() {
+    /// The portals as a place sees them.
+    fn seen(&self, place: Asking) -> SeenPortals {
+        let see = |portal| self.seen_portal(portal, place);
+        let mut portals: Vec<Option<Seen>> = self.portals.iter().map(see).collect();
+        let total: f64 = portals.iter().map(Seen::weight).sum();
+        let each = DEFENSIVE_SHARE * total / portals.iter().flatten().count().max(1) as f64;
+        for seen in portals.iter_mut().flatten() {
             seen.weight = (1.0 - DEFENSIVE_SHARE) * seen.weight + each;
         }
-        all
+        SeenPortals { portals, total }
     }
 
     fn seen_portal(&self, portal: &Portal, place: Asking) -> Option<Seen> {
-        let [a, b, c] = portal.corners;
+        let corners = portal.corners.points();
+        let [a, b, c] = corners;
         let side = portal.n.dot(place.position - a).signum();
-        let triangle = SeenTriangle::new(portal.corners, side * portal.n, place.position)?;
+        let triangle = SeenTriangle::new(corners, side * portal.n, place.position)?;
         let towards = ((a + b + c) / 3.0 - place.position).normalize_or_zero();
         let cos = place.side.map_or(1.0, |n| n.dot(towards).max(0.0) + MIN_COSINE);
         let weight = triangle.solid_angle_sr() * cos * self.luminance_cd_m2(towards);
         Some(Seen { triangle, weight })
     }
 
-    fn pdf_of(&self, all: &[Option<Seen>], place: Asking, direction: DVec3) -> f64 {
-        let total: f64 = all.iter().map(Seen::weight).sum();
-        let mut pdf_sr = 0.0;
-        if total <= 0.0 {
-            return pdf_sr;
+    /// Density in sr^-1 with which a place that sees the portals so asks along a direction.
+    fn pdf_of(&self, seen: &SeenPortals, place: Asking, direction: DVec3) -> f64 {
+        if seen.total <= 0.0 {
+            return 0.0;
         }
-        for (portal, seen) in self.portals.iter().zip(all) {
-            let Some((seen, distance_m)) =
-                seen.as_ref().zip(portal.distance_m(place.position, direction))
-            else {
-                continue;
-            };
-            let cos = portal.n.dot(direction).abs();
-            let pdf_m2 = seen.triangle.pdf_m2(place.position + direction * distance_m);
-            pdf_sr += seen.weight / total * pdf_m2 * distance_m * distance_m / cos;
-        }
-        pdf_sr
+        let ray = Ray::new(place.position, direction);
+        let prepared = PreparedRay::new(&ray);
+        let of_portal = |(portal, seen): (&Portal, &Option<Seen>)| {
+            let seen = seen.as_ref()?;
+            let distance_m = intersect(&prepared, &portal.corners, 0)?.distance;
+            let per_m2 = distance_m * distance_m / portal.n.dot(direction).abs();
+            Some(seen.weight * seen.triangle.pdf_m2(ray.at(distance_m)) * per_m2)
+        };
+        let all = self.portals.iter().zip(&seen.portals);
+        all.filter_map(of_portal).sum::<f64>() / seen.total
     }
 }
 
@@ -223,19 +221,6 @@ impl Portal {
     fn new(corners: [DVec3; 3]) -> Option<Self> {
         let [a, b, c] = corners;
         let n = (b - a).cross(c - a).try_normalize()?;
-        Some(Self { corners, n })
-    }
-
-    /// How far it is met along a unit direction.
-    fn distance_m(&self, from: DVec3, direction: DVec3) -> Option<f64> {
-        // T. Moeller, B. Trumbore, "Fast, minimum storage ray/triangle intersection", 1997.
-        let [a, b, c] = self.corners;
-        let (ab, ac, to) = (b - a, c - a, from - a);
-        let p = direction.cross(ac);
-        let det = ab.dot(p);
-        let q = to.cross(ab);
-        let (u, v) = (to.dot(p) / det, direction.dot(q) / det);
-        let distance_m = ac.dot(q) / det;
-        (u >= 0.0 && v >= 0.0 && u + v <= 1.0 && distance_m > 0.0).then_some(distance_m)
+        Some(Self { corners: Corners::new(corners), n })
     }
 }

@@ -209,7 +209,8 @@ impl<'p, S: Spectrum> Path<'p, S> {
         self.sample_direct_area_luminaires(context, &vertex, work);
         self.sample_direct_outside(context, &vertex, work);
         self.connect(context, &vertex, work);
-        self.asked_outside = self.pdf_sr.map(|pdf_sr| AskedOutside::new(&vertex, pdf_sr));
+        self.asked_outside =
+            self.pdf_sr.and_then(|pdf_sr| AskedOutside::new(context, &vertex, pdf_sr));
         self.specular_way = self.pdf_sr.and_then(|pdf_sr| self.specular_way(context, pdf_sr));
         let cos = n.dot(self.direction);
         self.subpath = self.subpath.map(|start| start.scattered(cos, cos * FRAC_1_PI, 0.0));
@@ -300,8 +301,8 @@ impl<'p, S: Spectrum> Path<'p, S> {
         let onward = self
             .end_on_map(context, bounces, at, albedo)
             .unwrap_or_else(|| self.russian_roulette(context, bounces, albedo));
-        let can_be_met = context.lights.emitters.is_some() || context.lights.outside.is_some();
-        if onward.everything == 0.0 && !(onward.emitted != 0.0 && can_be_met) {
+        let seeks_emitted = onward.emitted != 0.0 && context.lights.can_be_met();
+        if onward.everything == 0.0 && !seeks_emitted {
             return false;
         }
         self.scatter(context, at, &Scattering { bounces, surface, goes_on, onward })
@@ -319,8 +320,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
     ) {
         let bsdf = surface.bsdf;
         // Past mirrors alone, paths find nothing but facets that emit and what is outside.
-        let can_be_met = context.lights.emitters.is_some() || context.lights.outside.is_some();
-        self.found.reflected |= !bsdf.is_specular() || can_be_met;
+        self.found.reflected |= !bsdf.is_specular() || context.lights.can_be_met();
         self.bounces_asked = bounces + 1;
         if let (0, Some(partition)) = (bounces, self.partition)
             && bsdf.keeps_illuminance()

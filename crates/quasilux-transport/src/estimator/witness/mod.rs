@@ -86,7 +86,7 @@ impl<'a, S: Spectrum> Witness<'a, S> {
         settings: &Settings,
     ) -> Option<Self> {
         let targets = targets(scene);
-        // Its photons leave lamps alone.
+        // None of its photons comes from outside.
         let is_of_use = !targets.is_empty()
             && scene.environment.is_none()
             && settings.max_bounces != Some(0)

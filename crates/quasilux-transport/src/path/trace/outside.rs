@@ -19,8 +19,13 @@ pub(super) struct AskedOutside {
 }
 
 impl AskedOutside {
-    pub(super) fn new<S: Spectrum>(vertex: &Vertex<'_, S>, pdf_sr: f64) -> Self {
-        Self { place: Asking::at(vertex), pdf_sr }
+    /// `None` where nothing is outside.
+    pub(super) fn new<S: Spectrum>(
+        context: &Context<'_, S>,
+        vertex: &Vertex<'_, S>,
+        pdf_sr: f64,
+    ) -> Option<Self> {
+        context.lights.outside.as_ref().map(|_| Self { place: Asking::at(vertex), pdf_sr })
     }
 }
 
@@ -55,17 +60,16 @@ impl<S: Spectrum> Path<'_, S> {
         surface: &Surface<'_, S>,
         next: &BsdfSample<S>,
     ) {
-        if context.lights.outside.is_none() {
-            return;
-        }
-        let is_straight = || {
+        let is_straight = |_: &AskedOutside| {
             let is_pane = context.world.bsdf(at).straight_transmittance(1.0).is_some();
             is_pane && next.wi.z < 0.0
         };
-        let vertex = Vertex::on(&context.world, at, surface, self.beta);
         self.asked_outside = match next.pdf_sr {
-            Some(pdf_sr) => Some(AskedOutside::new(&vertex, pdf_sr)),
-            None => self.asked_outside.filter(|_| is_straight()),
+            Some(pdf_sr) => {
+                let vertex = Vertex::on(&context.world, at, surface, self.beta);
+                AskedOutside::new(context, &vertex, pdf_sr)
+            }
+            None => self.asked_outside.filter(is_straight),
         };
     }
 
