@@ -2,17 +2,12 @@
 
 from __future__ import annotations
 
-import os
-import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
-import pytest
+from files import ROOT, corpus
 from hypothesis import HealthCheck, settings
 
-ROOT = Path(os.environ.get("QUASILUX_ROOT") or Path(__file__).resolve().parents[3])
-CORPUS = ROOT.parent / "shared/data"
 BATWING = ROOT / "examples/office/batwing.ies"
 
 HEAD = b"IESNA:LM-63-2002\n[TEST] made up\n[LUMINAIRE] Lamp <b>\n"
@@ -41,25 +36,8 @@ fuzz = settings(
 )
 
 
-def corpus(*patterns: str) -> list[Path]:
-    """Files of others, which the repository does not hold."""
-    if os.environ.get("QUASILUX_CORPUS") == "none":
-        pytest.skip("left out without the corpus: QUASILUX_CORPUS is none")
-    files = sorted(file for pattern in patterns for file in CORPUS.glob(pattern) if file.is_file())
-    assert files, f"{CORPUS} is missing; QUASILUX_CORPUS=none leaves out the tests that read it"
-    return files
-
-
 def luminaire_files() -> list[Path]:
     return corpus("ies/*.[iI][eE][sS]", "ldt/*.ldt", "ies/tm33/*.xml")
-
-
-def command_line(*words: str | Path, code: int = 0) -> bytes:
-    """What the command line prints; it is another process, for it writes past `sys.stdout`."""
-    command = [sys.executable, "-m", "quasilux._command_line", *map(str, words)]
-    done = subprocess.run(command, capture_output=True, check=False)
-    assert done.returncode == code, done.stderr.decode()
-    return done.stdout
 
 
 def direction(c_deg, gamma_deg):

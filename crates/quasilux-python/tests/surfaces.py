@@ -2,18 +2,13 @@
 
 from __future__ import annotations
 
-import os
-import subprocess
-import sys
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from files import corpus
 from quasilux import bsdf
-
-ROOT = Path(os.environ.get("QUASILUX_ROOT") or Path(__file__).resolve().parents[3])
-CORPUS = ROOT.parent / "shared/data/bsdf"
 
 KINDS: list[Any] = [
     (side, mode) for side in ("front", "back") for mode in ("reflection", "transmission")
@@ -95,13 +90,8 @@ MADE = {
 }
 
 
-def corpus() -> list[Path]:
-    """Files of others, which the repository does not hold."""
-    if os.environ.get("QUASILUX_CORPUS") == "none":
-        pytest.skip("left out without the corpus: QUASILUX_CORPUS is none")
-    files = sorted(file for file in CORPUS.glob("*") if file.is_file())
-    assert files, f"{CORPUS} is missing; QUASILUX_CORPUS=none leaves out the tests that read it"
-    return files
+def surface_files() -> list[Path]:
+    return corpus("bsdf/*")
 
 
 def surfaces():
@@ -111,14 +101,6 @@ def surfaces():
 
 def tables():
     return [(name, table) for name, surface in surfaces().items() for table in surface.tables]
-
-
-def command_line(*words: str | Path, code: int = 0) -> bytes:
-    """What the command line prints; it is another process, for it writes past `sys.stdout`."""
-    command = [sys.executable, "-m", "quasilux._command_line", *map(str, words)]
-    done = subprocess.run(command, capture_output=True, check=False)
-    assert done.returncode == code, done.stderr.decode()
-    return done.stdout
 
 
 def close(found, expected, path="", rel=1e-12):

@@ -7,8 +7,9 @@ from typing import Any
 
 import numpy as np
 import pytest
+from files import command_line
 from quasilux import bsdf
-from surfaces import MADE, MATRIX, NARROW, command_line, corpus
+from surfaces import MADE, MATRIX, NARROW, surface_files
 
 
 def test_diagrams_are_those_of_the_command_line(tmp_path):
@@ -18,7 +19,7 @@ def test_diagrams_are_those_of_the_command_line(tmp_path):
     files = [
         path for path in sorted(tmp_path.iterdir()) if path.suffix in (".xml", ".ddr", ".astm")
     ]
-    files += [file for file in corpus() if file.stem.startswith(("klems", "tt"))]
+    files += [file for file in surface_files() if file.stem.startswith(("klems", "tt"))]
     incidences = ["--incidence", "0", "--incidence", "45", "--incidence", "70,90"]
     command_line("bsdf", "--svg", tmp_path / "drawings", *incidences, *files)
     for file in files:

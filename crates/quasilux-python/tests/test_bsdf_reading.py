@@ -11,10 +11,11 @@ from typing import Any
 
 import numpy as np
 import pytest
+from files import command_line, warnings_of
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from quasilux import InputError, bsdf
-from surfaces import MADE, MATRIX, NARROW, close, command_line, corpus
+from surfaces import MADE, MATRIX, NARROW, close, surface_files
 
 # What a file says.
 
@@ -22,7 +23,7 @@ from surfaces import MADE, MATRIX, NARROW, close, command_line, corpus
 def test_all_figures_warnings_and_errors_are_those_of_the_command_line(tmp_path):
     for name, data in MADE.items():
         (tmp_path / name).write_bytes(data)
-    files = [*sorted(tmp_path.iterdir()), *corpus()]
+    files = [*sorted(tmp_path.iterdir()), *surface_files()]
     document = json.loads(command_line("bsdf", "--json", *files, code=2))
     chosen = ["--incidence", "10", "--incidence", "45,200"]
     other = json.loads(command_line("bsdf", "--json", *chosen, *files, code=2))
@@ -39,17 +40,7 @@ def test_all_figures_warnings_and_errors_are_those_of_the_command_line(tmp_path)
         assert entry["error"] is None
         close(surface.to_dict(), entry["surface"], file.name)
         close(surface.to_dict(incidences_deg=[10, (45, 200)]), further["surface"], file.name)
-        warnings = [
-            {
-                "rule": w.kind,
-                "line": w.line,
-                "column": w.column,
-                "count": w.count,
-                "message": w.message,
-            }
-            for w in surface.warnings
-        ]
-        assert warnings == entry["warnings"]
+        assert warnings_of(surface) == entry["warnings"]
     assert count >= len(MADE) + 8
 
 

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 from quasilux import InputError, bsdf
-from surfaces import FIVE, KINDS, MADE, MATRIX, WEIGHTS, corpus, hemisphere, surfaces, tables
+from surfaces import FIVE, KINDS, MADE, MATRIX, WEIGHTS, hemisphere, surface_files, surfaces, tables
 
 # Matrices.
 
@@ -95,7 +95,7 @@ def test_other_tables_have_no_matrix():
 
 
 def test_matrices_of_published_files_add_up():
-    for file in corpus():
+    for file in surface_files():
         try:
             surface = bsdf.read(file)
         except InputError:

@@ -8,7 +8,8 @@ import xml.etree.ElementTree
 
 import numpy as np
 import pytest
-from lamps import BATWING, UNEVEN, command_line, luminaire_files
+from files import command_line
+from lamps import BATWING, UNEVEN, luminaire_files
 from quasilux import InputError, photometry
 
 

@@ -12,7 +12,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from lamps import BATWING, FACTORS, TILTED, UNEVEN, command_line, luminaire_files
+from files import command_line, warnings_of
+from lamps import BATWING, FACTORS, TILTED, UNEVEN, luminaire_files
 from quasilux import InputError, photometry
 
 # What a file says.
@@ -77,17 +78,7 @@ def test_all_figures_warnings_and_errors_are_those_of_the_command_line():
             continue
         assert entry["error"] is None
         assert lamp.to_dict() == entry["luminaire"]
-        warnings = [
-            {
-                "rule": w.kind,
-                "line": w.line,
-                "column": w.column,
-                "count": w.count,
-                "message": w.message,
-            }
-            for w in lamp.warnings
-        ]
-        assert warnings == entry["warnings"]
+        assert warnings_of(lamp) == entry["warnings"]
 
 
 def test_warnings_say_where():

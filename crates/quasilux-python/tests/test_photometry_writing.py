@@ -7,7 +7,8 @@ import pickle
 
 import numpy as np
 import pytest
-from lamps import BATWING, TYPE_B, command_line, direction, integral, luminaire_files
+from files import command_line
+from lamps import BATWING, TYPE_B, direction, integral, luminaire_files
 from quasilux import InputError, photometry
 
 # Writing.

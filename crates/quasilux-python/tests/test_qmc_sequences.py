@@ -124,7 +124,10 @@ def test_points_do_not_depend_on_how_they_are_drawn(make, d, n):
 
 
 def test_points_do_not_depend_on_threads():
-    for make in (qmc.Sobol, qmc.Halton, qmc.Independent):
+    def owen(d: int, rng: int) -> Any:
+        return qmc.Sobol(d, rng=rng, randomization="owen")
+
+    for make in (qmc.Sobol, owen, qmc.Halton, qmc.Independent):
         samples = [
             make(13, rng=3).fast_forward(77).random(50_001, workers=workers)
             for workers in (None, 1, 2, 5, -1)
