@@ -115,7 +115,7 @@ impl<'o> Watch<'o> {
         self.failed
     }
 
-    /// Blocks of `work`; `None` where there is nobody to trace them, or less than a block.
+    /// Blocks of `work`; `None` where there is nobody to trace them, or little of it.
     pub(crate) fn blocks<T: Serialize>(
         &self,
         frame: impl FnOnce() -> T,

@@ -20,8 +20,8 @@ pub trait Workers {
         done: &mut dyn FnMut(Received<'_>) -> bool,
     ) -> bool;
 
-    /// Paths of the smallest block: with fewer, sending it takes longer than tracing it. The same
-    /// in all runs that are to have the same blocks.
+    /// Paths of the smallest block: with fewer, sending it takes longer than tracing it. Work of few
+    /// such blocks is not handed out. The same in all runs that are to have the same blocks.
     fn min_paths(&self) -> u64 {
         MIN_PATHS
     }
@@ -70,13 +70,13 @@ const MANY: u64 = 256;
 const SEVERAL: u64 = 8;
 const OF_TWO: u64 = 4;
 
-/// The blocks of `work`; none where there is little. The cut depends on the work alone, so that
+/// The blocks of `work`; none where there is little or nothing. The cut depends on the work alone, so that
 /// blocks that were kept serve any other number of workers.
 pub(crate) fn blocks(work: &Range<u64>, size: BlockSize, min_paths: u64) -> Vec<Range<u64>> {
-    let each = size.paths.max(1);
+    let each = size.paths;
     let least = min_paths.max(size.sums.saturating_mul(PATHS_OF_A_SUM));
     let paths_to_end = |start: u64| (work.end - start).saturating_mul(each);
-    if paths_to_end(work.start) <= least.max(min_paths.saturating_mul(FEW)) {
+    if each == 0 || paths_to_end(work.start) <= least.max(min_paths.saturating_mul(FEW)) {
         return Vec::new();
     }
     let several = least.saturating_mul(SEVERAL);
@@ -110,6 +110,7 @@ mod tests {
         }
         let size = BlockSize { paths: 10, sums: 0 };
         assert_eq!(blocks(&(0..MIN_PATHS * FEW / 10), size, MIN_PATHS), []);
+        assert_eq!(blocks(&(0..1 << 30), BlockSize { paths: 0, sums: 0 }, MIN_PATHS), []);
         let many = BlockSize { paths: 1, sums: 1 << 18 };
         let smallest = blocks(&(0..1 << 26), many, MIN_PATHS).into_iter().next_back().unwrap();
         assert_eq!(smallest.end - smallest.start, 1 << 20);

@@ -58,7 +58,7 @@ def simulate(
     checkpoints; photons and paths are traced by tasks of the cluster. Tasks that are lost with
     their process or node are done again, nodes may come and go at any time. Surveys and pilots,
     and photons of maps that all paths end on, are traced by the driver and once more in each
-    process; pictures by the driver alone.
+    process; pictures, and steps between two checkpoints that are short, by the driver alone.
 
     Parameters
     ----------

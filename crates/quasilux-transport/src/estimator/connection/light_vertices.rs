@@ -161,11 +161,22 @@ impl LightVertexConnections {
         self.counted_lx = rows.map(lx).collect();
     }
 
+    /// How many photons an index has.
+    pub(crate) fn photons_of_an_index(&self) -> u64 {
+        self.sum_of_an_index(|_| 1)
+    }
+
     /// How much work an index is, in photons that are not connected.
     pub(crate) fn work_of_an_index(&self) -> u64 {
+        self.sum_of_an_index(|open| 1 + open / CONNECTIONS_OF_A_PHOTON)
+    }
+
+    /// Over the photons of an index: 1 for each that is counted, and for each that is connected what
+    /// `connected` says of the number of targets that it is connected to.
+    fn sum_of_an_index(&self, connected: impl Fn(u64) -> u64) -> u64 {
         let of_group = |ends: &[Option<u64>]| {
             let open = ends.iter().filter(|end| end.is_none()).count() as u64;
-            if open == 0 { 0 } else { 1 + open / CONNECTIONS_OF_A_PHOTON }
+            if open == 0 { 0 } else { connected(open) }
         };
         let connected: u64 = self.ends.chunks(GROUP).map(of_group).sum();
         let counted = if connected == 0 { 0 } else { self.connection.cell_photons };
