@@ -6,7 +6,7 @@
 //! shine. Overhangs and outside walls are black and wider than any view from the room; the ground
 //! is black in these cases, which leaves the sky component.
 
-use super::factors::Point;
+use super::factors::{Point, minus};
 use super::geometry::{Quad, ROOM_M, file};
 use super::project::{Case, Expectation, Material, Project, Sensor, Tolerance};
 use super::sky::{self, SKIES, View};
@@ -333,8 +333,4 @@ impl Setting {
         });
         through.sum()
     }
-}
-
-fn minus(a: Point, b: Point) -> Point {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }

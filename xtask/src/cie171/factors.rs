@@ -26,11 +26,11 @@ pub(crate) fn solid_angle_sr([a, b]: [f64; 2], distance: f64) -> f64 {
     4.0 * libm::atan(a * b / (distance * libm::sqrt(a * a + b * b + distance * distance)))
 }
 
-fn minus(a: Point, b: Point) -> Point {
+pub(super) fn minus(a: Point, b: Point) -> Point {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
-fn dot(a: Point, b: Point) -> f64 {
+pub(super) fn dot(a: Point, b: Point) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 

@@ -1,7 +1,7 @@
 //! The luminances of the CIE skies and their integrals, for references: written after the standard
 //! once more, and not with the code that they are to check.
 
-use super::factors::Point;
+use super::factors::{Point, dot, minus};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::sync::OnceLock;
 
@@ -65,10 +65,10 @@ impl View {
                 let mut point = low;
                 point[0] += width * x;
                 point[axis] += height * y;
-                let way = [0, 1, 2].map(|k| point[k] - self.at[k]);
-                let squared: f64 = way.iter().map(|x| x * x).sum();
+                let way = minus(point, self.at);
+                let squared = dot(way, way);
                 let direction = way.map(|x| x / libm::sqrt(squared));
-                let cos: f64 = direction.iter().zip(self.normal).map(|(a, b)| a * b).sum();
+                let cos = dot(direction, self.normal);
                 let through = direction[across].abs();
                 let glass = if self.is_glazed { glass(through) } else { 1.0 };
                 let seen = glass * cos.max(0.0) * through / squared;
@@ -89,8 +89,7 @@ impl View {
             libm::sin(zenith) * libm::cos(azimuth),
             libm::cos(zenith),
         ];
-        let cos_sun = direction.iter().zip(sun).map(|(a, b)| a * b).sum();
-        100.0 * relative(self.sky, direction[2], cos_sun) / horizontal(self.sky)
+        100.0 * relative(self.sky, direction[2], dot(direction, sun)) / horizontal(self.sky)
     }
 }
 

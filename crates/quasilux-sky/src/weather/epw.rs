@@ -3,7 +3,7 @@
 use super::row::{Row, date, number};
 use super::{Weather, WeatherHour, WeatherLight, WeatherUnits, WeatherWarning, expect_a_year};
 use crate::sun::Site;
-use quasilux_text::{ParseError, Token, Warnings};
+use quasilux_text::{ParseError, Token, Warnings, quoted};
 
 /// Lines before the data.
 const HEADER: usize = 8;
@@ -35,9 +35,8 @@ pub(super) fn read(
         .map_err(|error| ParseError::new(location.start(), error, "a site"))?;
     let per_hour = intervals_per_hour(rows)?;
     let data = rows.iter().skip(HEADER).filter(|row| !row.text().trim().is_empty());
-    let hours: Result<Vec<WeatherHour>, ParseError> =
-        data.map(|row| hour(row, per_hour, warnings)).collect();
-    let hours = hours?;
+    let hours = data.map(|row| hour(row, per_hour, warnings));
+    let hours = hours.collect::<Result<Vec<WeatherHour>, ParseError>>()?;
     expect_a_year(hours.len(), per_hour as usize, warnings);
     Ok(Weather { place, site, units: WeatherUnits::Irradiance, hours })
 }
@@ -52,7 +51,7 @@ fn intervals_per_hour(rows: &[Row<'_>]) -> Result<f64, ParseError> {
     let fields = row.by_commas();
     let name = row.field(&fields, 0, what)?;
     if !name.text.eq_ignore_ascii_case("DATA PERIODS") {
-        return Err(ParseError::new(name.at, quasilux_text::quoted(name.text), what));
+        return Err(ParseError::new(name.at, quoted(name.text), what));
     }
     let what = "the number of intervals in an hour, 1 to 60";
     let per_hour = row.field(&fields, 2, what)?;
@@ -60,7 +59,7 @@ fn intervals_per_hour(rows: &[Row<'_>]) -> Result<f64, ParseError> {
     if 60.0 % count == 0.0 {
         Ok(count)
     } else {
-        Err(ParseError::new(per_hour.at, quasilux_text::quoted(per_hour.text), what))
+        Err(ParseError::new(per_hour.at, quoted(per_hour.text), what))
     }
 }
 

@@ -42,8 +42,8 @@ pub(super) fn read(
         3.0 => WeatherUnits::Illuminance,
         _ => return Err(ParseError::new(units_at.at, quoted(units_at.text), "1, 2 or 3")),
     };
-    let hours: Result<Vec<WeatherHour>, ParseError> = rows.map(|row| hour(row, units)).collect();
-    let hours = hours?;
+    let hours = rows.map(|row| hour(row, units));
+    let hours = hours.collect::<Result<Vec<WeatherHour>, ParseError>>()?;
     expect_a_year(hours.len(), 1, warnings);
     Ok(Weather { place, site, units, hours })
 }

@@ -20,8 +20,8 @@ pub trait Workers {
         done: &mut dyn FnMut(Received<'_>) -> bool,
     ) -> bool;
 
-    /// Paths of the smallest block: with fewer, sending it takes longer than tracing it. Work of few
-    /// such blocks is not handed out. The same in all runs that are to have the same blocks.
+    /// Paths of the smallest block: with fewer, sending it takes longer than tracing it. Work of
+    /// few such blocks is not handed out. The same in all runs that are to have the same blocks.
     fn min_paths(&self) -> u64 {
         MIN_PATHS
     }
@@ -70,8 +70,8 @@ const MANY: u64 = 256;
 const SEVERAL: u64 = 8;
 const OF_TWO: u64 = 4;
 
-/// The blocks of `work`; none where there is little or nothing. The cut depends on the work alone, so that
-/// blocks that were kept serve any other number of workers.
+/// The blocks of `work`; none where there is little or nothing. The cut depends on the work alone,
+/// so that blocks that were kept serve any other number of workers.
 pub(crate) fn blocks(work: &Range<u64>, size: BlockSize, min_paths: u64) -> Vec<Range<u64>> {
     let each = size.paths;
     let least = min_paths.max(size.sums.saturating_mul(PATHS_OF_A_SUM));

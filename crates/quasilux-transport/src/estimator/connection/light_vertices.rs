@@ -171,8 +171,8 @@ impl LightVertexConnections {
         self.sum_of_an_index(|open| 1 + open / CONNECTIONS_OF_A_PHOTON)
     }
 
-    /// Over the photons of an index: 1 for each that is counted, and for each that is connected what
-    /// `connected` says of the number of targets that it is connected to.
+    /// Over the photons of an index: 1 for each that is counted, and for each that is connected
+    /// what `connected` says of the number of targets that it is connected to.
     fn sum_of_an_index(&self, connected: impl Fn(u64) -> u64) -> u64 {
         let of_group = |ends: &[Option<u64>]| {
             let open = ends.iter().filter(|end| end.is_none()).count() as u64;
