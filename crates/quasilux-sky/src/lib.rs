@@ -40,7 +40,7 @@ pub use sky::{Sky, SkyLevel};
 pub use sun::{SUN_RADIUS_DEG, Site, solid_angle_of_the_sun_sr, sun_luminance_cd_m2};
 
 pub use weather::{
-    ParsedWeather, Weather, WeatherHour, WeatherLight, WeatherUnits, WeatherWarning,
+    ParsedWeather, Weather, WeatherHour, WeatherLight, WeatherSky, WeatherUnits, WeatherWarning,
 };
 
 /// Tests the example of the README.
