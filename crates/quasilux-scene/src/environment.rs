@@ -60,7 +60,13 @@ impl Environment {
     /// Towards the centre of the sun, a unit vector of the world.
     #[must_use]
     pub fn sun_direction(&self) -> Option<DVec3> {
-        self.sun.map(|sun| self.to_world(DVec3::from_array(sun.centre.to_direction())))
+        self.sun.map(|sun| self.towards(sun.centre))
+    }
+
+    /// Towards a point of the sky, a unit vector of the world.
+    #[must_use]
+    pub fn towards(&self, point: SkyPoint) -> DVec3 {
+        turned(DVec3::from_array(point.to_direction()), self.north_deg)
     }
 
     /// The illuminance in lx on a horizontal plane that nothing shades: of the sky, and of the sun
@@ -80,13 +86,10 @@ impl Environment {
         self.ground_reflectance * self.horizontal_illuminance_lx() * FRAC_1_PI
     }
 
-    /// From a direction of the world to one by the compass.
-    fn to_sky(&self, direction: DVec3) -> [f64; 3] {
+    /// From a direction of the world to one by the compass: x east, y north, z up.
+    #[must_use]
+    pub fn to_sky(&self, direction: DVec3) -> [f64; 3] {
         turned(direction, -self.north_deg).to_array()
-    }
-
-    fn to_world(&self, direction: DVec3) -> DVec3 {
-        turned(direction, self.north_deg)
     }
 }
 

@@ -33,6 +33,15 @@ pub struct WeatherSky {
     pub sun_normal_illuminance_lx: f64,
 }
 
+impl WeatherSky {
+    /// The illuminance of sky and sun in lx on a horizontal plane that nothing shades.
+    #[must_use]
+    pub fn horizontal_illuminance_lx(&self) -> f64 {
+        let sine = sin(self.sun.altitude_deg.to_radians()).max(0.0);
+        self.sky.horizontal_illuminance_lx() + self.sun_normal_illuminance_lx * sine
+    }
+}
+
 impl Weather {
     /// Sky and sun of an interval: of its mean light, with the sun where it is in the middle.
     ///

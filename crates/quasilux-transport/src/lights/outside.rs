@@ -100,6 +100,16 @@ impl<'a> OutsideLight<'a> {
         !self.portals.is_empty()
     }
 
+    /// Corners of the triangles that they ask through.
+    pub(super) fn portal_corners(&self) -> impl Iterator<Item = [DVec3; 3]> {
+        self.portals.iter().map(|portal| portal.corners.points())
+    }
+
+    /// A distance in m beyond everything.
+    pub(crate) fn beyond_m(&self) -> f64 {
+        self.beyond_m
+    }
+
     /// Whether the disk of the sun shines.
     pub(crate) fn has_sun(&self) -> bool {
         self.sun.is_some()

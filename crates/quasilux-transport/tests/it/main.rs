@@ -2,6 +2,7 @@
 
 mod adaptivity;
 mod agreement;
+mod annual;
 mod area_lights;
 mod area_lights_behind_panes;
 mod area_luminaires;

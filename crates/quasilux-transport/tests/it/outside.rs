@@ -23,26 +23,26 @@ fn clear_pane(cos: f64) -> f64 {
 }
 
 /// Numbers in [0, 1) for rooms at random.
-struct Numbers(u64);
+pub(crate) struct Numbers(pub(crate) u64);
 
 impl Numbers {
-    fn next(&mut self) -> f64 {
+    pub(crate) fn next(&mut self) -> f64 {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963);
         (self.0 >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    fn within(&mut self, low: f64, high: f64) -> f64 {
+    pub(crate) fn within(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.next()
     }
 }
 
 /// A room whose wall y = 0 has a window.
-struct Room {
-    scene: Scene,
-    window: Opening,
+pub(crate) struct Room {
+    pub(crate) scene: Scene,
+    pub(crate) window: Opening,
 }
 
-fn room_with_window(numbers: &mut Numbers, reflectance: f64) -> Room {
+pub(crate) fn room_with_window(numbers: &mut Numbers, reflectance: f64) -> Room {
     let size =
         DVec3::new(numbers.within(3.0, 7.0), numbers.within(3.0, 6.0), numbers.within(2.4, 4.0));
     let mut scene = room(size, diffuse(reflectance));
@@ -114,7 +114,7 @@ fn intervals(estimates: &Estimates) -> Vec<[f64; 2]> {
 }
 
 /// Illuminances through an opening in a black room, by midpoints of small rectangles.
-fn through(
+pub(crate) fn through(
     opening: &Opening,
     environment: &Environment,
     transmittance: impl Fn(f64) -> f64,

@@ -3,7 +3,8 @@
 use super::{Path, PathWork};
 use crate::bsdf::BsdfSample;
 use crate::context::Context;
-use crate::lights::Asking;
+use crate::lights::{Asking, SunSample};
+use crate::path::daylight::{FromOutside, Whence};
 use crate::purpose::Purpose;
 use crate::spectrum::Spectrum;
 use crate::world::Interaction;
@@ -42,13 +43,41 @@ impl<S: Spectrum> Path<'_, S> {
         if outside.has_portals() {
             let purpose = Purpose::Opening { surface };
             let u = context.draw(&mut self.sampler, purpose, Sampler::next_2d);
-            self.ask(outside.light_sample(vertex, u), vertex, work);
+            let sample = outside.light_sample(vertex, u);
+            if let (Some(daylight), Some(sample)) = (&mut self.daylight, &sample) {
+                daylight.note_asked(Whence::Outside(sample.direction));
+            }
+            self.ask(sample, vertex, work);
         }
+        self.sample_direct_suns(context, vertex, work);
         if outside.has_sun() {
             let purpose = Purpose::Sun { surface };
             let u = context.draw(&mut self.sampler, purpose, Sampler::next_2d);
             self.ask(outside.sun_sample(vertex, u), vertex, work);
         }
+    }
+
+    /// Asks for some of the suns at a surface: who keeps light apart by direction knows what they
+    /// give straight to a sensor.
+    fn sample_direct_suns(
+        &mut self,
+        context: &Context<'_, S>,
+        vertex: &Vertex<'_, S>,
+        work: &mut PathWork<S>,
+    ) {
+        let (Some(outside), Some(daylight)) = (&context.lights.outside, &mut self.daylight) else {
+            return;
+        };
+        if vertex.is_sensor() {
+            return;
+        }
+        let purpose = Purpose::Sun { surface: self.bounces_asked };
+        let u = context.draw(&mut self.sampler, purpose, Sampler::next_1d);
+        let PathWork { shadows, suns, .. } = work;
+        daylight.suns.samples(outside, vertex, u, suns, |SunSample { sun, light_sample }| {
+            daylight.note_asked(Whence::Sun(sun));
+            shadows.ask(self.number, vertex, &light_sample);
+        });
     }
 
     /// Notes how the vertex that it leaves asked along its new direction: panes that let it
@@ -85,6 +114,15 @@ impl<S: Spectrum> Path<'_, S> {
             // Nobody can have asked for the sun along this way.
             None => found_cd_m2 += outside.sun_cd_m2(self.direction),
         }
-        self.found.add(bounces, self.beta_emitted * found_cd_m2);
+        let light = self.beta_emitted * found_cd_m2;
+        if self.daylight.is_some() {
+            let whence = match self.asked_outside {
+                Some(_) => Whence::Outside(self.direction),
+                None => Whence::Mirrored(self.direction),
+            };
+            self.found.from_outside.push(FromOutside { whence, light: light.luminance() });
+        } else {
+            self.found.add(bounces, light);
+        }
     }
 }
