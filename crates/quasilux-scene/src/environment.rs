@@ -1,7 +1,7 @@
 //! What is outside: the sky, the sun, the ground, and the openings that they shine through.
 
 use glam::DVec3;
-use quasilux_sky::{Sky, SkyPoint, sun_luminance_cd_m2};
+use quasilux_sky::{CieType, LocalTime, Site, Sky, SkyPoint, sun_luminance_cd_m2};
 use std::f64::consts::{FRAC_1_PI, FRAC_PI_2};
 
 /// Everything beyond the triangles: light that comes from infinitely far away.
@@ -39,6 +39,43 @@ pub struct Opening {
     pub v: DVec3,
 }
 
+/// What a sky was made of, for what is said of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SkyFacts {
+    /// How its luminances are distributed.
+    pub model: SkyModel,
+    /// Where on the earth it is, where that is known.
+    pub site: Option<Site>,
+    /// The time that the sun's place is of, by the clock of the site, where a time gave it.
+    pub time: Option<LocalTime>,
+    /// The centre of the sun, whether its disk shines or not; it may be below the horizon.
+    pub sun: Option<SkyPoint>,
+}
+
+/// How the luminances of a sky are distributed.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SkyModel {
+    /// Evenly.
+    Uniform,
+    /// As a CIE standard general sky.
+    Cie(CieType),
+    /// By Perez, of irradiances in the project file.
+    Perez,
+    /// By Perez, of an interval of a weather file; of none where the project names no time.
+    Weather {
+        /// The file, as the project file writes it.
+        file: String,
+    },
+}
+
+impl SkyFacts {
+    /// Whether the sky is that of no time: the project names a weather file, and no time.
+    #[must_use]
+    pub fn lacks_time(&self) -> bool {
+        matches!(self.model, SkyModel::Weather { .. }) && self.time.is_none()
+    }
+}
+
 impl Environment {
     /// The luminance of the sky or of the ground in a direction of the world, a unit vector, in
     /// cd/m2; without the disk of the sun.
@@ -72,6 +109,12 @@ impl Environment {
             sun.normal_illuminance_lx * sine
         });
         self.sky.horizontal_illuminance_lx() + of_sun
+    }
+
+    /// Whether nothing shines: a sky of 0 lx without a sun.
+    #[must_use]
+    pub fn is_dark(&self) -> bool {
+        self.sky.horizontal_illuminance_lx() <= 0.0 && self.sun.is_none()
     }
 
     /// The luminance of the ground, lit by the whole sky, in cd/m2.

@@ -17,17 +17,20 @@ pub enum FileKind {
     Tilt,
     /// A measured surface.
     Bsdf,
+    /// Weather of a site: EPW or WEA.
+    Weather,
 }
 
 impl FileKind {
     /// All kinds.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 7] = [
         Self::Geometry,
         Self::MaterialLibrary,
         Self::Buffer,
         Self::Photometry,
         Self::Tilt,
         Self::Bsdf,
+        Self::Weather,
     ];
 
     /// Most bytes that a file of this kind can have.
@@ -36,7 +39,7 @@ impl FileKind {
         match self {
             Self::Geometry | Self::Buffer => 2 << 30,
             Self::Bsdf => 256 << 20,
-            Self::MaterialLibrary | Self::Photometry => 64 << 20,
+            Self::MaterialLibrary | Self::Photometry | Self::Weather => 64 << 20,
             Self::Tilt => 1 << 20,
         }
     }

@@ -15,3 +15,4 @@ mod project_cases;
 mod support;
 mod tilt;
 mod walls;
+mod weather;

@@ -29,3 +29,4 @@ mod spread;
 mod support;
 mod tilt;
 mod validation;
+mod weather;
