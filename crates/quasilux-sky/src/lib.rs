@@ -27,6 +27,7 @@ mod perez;
 mod point;
 mod quadrature;
 mod sky;
+mod solar_day;
 mod sun;
 mod weather;
 
@@ -37,6 +38,7 @@ pub use local_time::LocalTime;
 pub use perez::{Irradiance, Perez};
 pub use point::SkyPoint;
 pub use sky::{Sky, SkyLevel};
+pub use solar_day::{SolarDay, SolarPosition};
 pub use sun::{SUN_RADIUS_DEG, Site, solid_angle_of_the_sun_sr, sun_luminance_cd_m2};
 
 pub use weather::{

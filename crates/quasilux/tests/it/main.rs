@@ -25,6 +25,7 @@ mod results;
 mod resumed;
 mod scenes;
 mod sequences;
+mod sky;
 mod spread;
 mod support;
 mod tilt;
