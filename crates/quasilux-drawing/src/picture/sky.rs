@@ -23,6 +23,8 @@ const DEGREES_PX: f64 = 12.6;
 const RINGS_DEG: [f64; 2] = [30.0, 60.0];
 /// Azimuths of the labels of rings.
 const RING_LABELS_DEG: f64 = 0.0;
+/// More than any sky has.
+const MAX_CD_M2: f64 = 1e30;
 /// Corners of a ring.
 const CORNERS: u32 = 240;
 
@@ -83,7 +85,9 @@ impl Cells {
             (distance < 1.0 + step).then(|| {
                 let altitude_deg = 90.0 * (1.0 - distance).max(0.0);
                 let azimuth_deg = libm::atan2(x, y).to_degrees().rem_euclid(360.0);
-                (picture.luminance_cd_m2)([altitude_deg, azimuth_deg]) as f32
+                let luminance = (picture.luminance_cd_m2)([altitude_deg, azimuth_deg]);
+                // What is no number is dark.
+                if luminance >= 0.0 { luminance.min(MAX_CD_M2) as f32 } else { 0.0 }
             })
         };
         let rows = (0..side + 2).flat_map(|row| (0..side + 2).map(move |column| (row, column)));
