@@ -66,6 +66,11 @@ pub enum SkyModel {
         /// The file, as the project file writes it.
         file: String,
     },
+    /// As a picture has them.
+    Panorama {
+        /// The file, as the project file writes it.
+        file: String,
+    },
 }
 
 impl SkyFacts {

@@ -19,11 +19,13 @@ pub enum FileKind {
     Bsdf,
     /// Weather of a site: EPW or WEA.
     Weather,
+    /// A picture of the sky in Radiance's format.
+    Panorama,
 }
 
 impl FileKind {
     /// All kinds.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Geometry,
         Self::MaterialLibrary,
         Self::Buffer,
@@ -31,6 +33,7 @@ impl FileKind {
         Self::Tilt,
         Self::Bsdf,
         Self::Weather,
+        Self::Panorama,
     ];
 
     /// Most bytes that a file of this kind can have.
@@ -38,6 +41,7 @@ impl FileKind {
     pub const fn max_bytes(self) -> u64 {
         match self {
             Self::Geometry | Self::Buffer => 2 << 30,
+            Self::Panorama => 1 << 30,
             Self::Bsdf => 256 << 20,
             Self::MaterialLibrary | Self::Photometry | Self::Weather => 64 << 20,
             Self::Tilt => 1 << 20,

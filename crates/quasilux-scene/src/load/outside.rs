@@ -3,9 +3,9 @@
 use super::photometry::{load_error, passed_on};
 use crate::environment::{Environment, SkyFacts, SkyModel, Sun};
 use crate::geometry::read_file;
-use crate::project::{OutsideEntry, OutsideLight, Project, WeatherEntry};
+use crate::project::{OutsideEntry, OutsideLight, PanoramaEntry, Project, WeatherEntry};
 use crate::{FileKind, Files, LoadError, Spanned, Warning};
-use quasilux_sky::{Distribution, LocalTime, Site, Sky, SkyLevel, Weather, WeatherSky};
+use quasilux_sky::{Distribution, LocalTime, Panorama, Site, Sky, SkyLevel, Weather, WeatherSky};
 
 /// Most degrees that the site of a project and that of its weather file may be apart in latitude
 /// and in longitude: no more than they are rounded.
@@ -35,7 +35,11 @@ pub(super) fn resolve(
     let Some(entry) = &project.outside else { return Ok(Outside::default()) };
     let Light { sky, sun, facts, weather } = match &entry.light {
         OutsideLight::Known { sky, sun, facts } => {
-            Light { sky: *sky, sun: *sun, facts: facts.clone(), weather: None }
+            Light { sky: sky.clone(), sun: *sun, facts: facts.clone(), weather: None }
+        }
+        OutsideLight::Panorama { picture, sun, facts } => {
+            let sky = of_picture(project, picture, files, warnings)?;
+            Light { sky, sun: *sun, facts: facts.clone(), weather: None }
         }
         OutsideLight::Weather(entry) => of_weather(project, entry, files, warnings)?,
     };
@@ -44,6 +48,30 @@ pub(super) fn resolve(
     let openings = openings.clone();
     let environment = Environment { sky, sun, ground_reflectance, north_deg, openings };
     Ok(Outside { environment: Some(environment), weather, facts: Some(facts) })
+}
+
+/// The sky of a picture.
+fn of_picture(
+    project: &Project,
+    entry: &PanoramaEntry,
+    files: &dyn Files,
+    warnings: &mut Vec<Warning>,
+) -> Result<Sky, LoadError> {
+    let file = entry.file.value.as_str();
+    let bytes = read_file(project, &entry.file, files, FileKind::Panorama)?;
+    let read = Panorama::parse(&bytes).map_err(|error| load_error(file, &error))?;
+    warnings.extend(read.warnings.iter().map(|warning| passed_on(file, warning)));
+    let panorama = read.panorama.with_middle_at(entry.middle_azimuth_deg);
+    if panorama.horizontal_illuminance_lx() <= 0.0 {
+        let message =
+            format!("the upper half of \"{file}\" is dark; expected the luminances of a sky");
+        return Err(project.error(entry.file.place, message));
+    }
+    let level = entry.level.as_ref();
+    let place = level.map_or(entry.file.place, |level| level.place);
+    let level = level.map_or(SkyLevel::Absolute, |level| level.value);
+    Sky::new(Distribution::panorama(panorama), level)
+        .map_err(|error| project.error(place, error.to_string()))
 }
 
 /// The light of an interval of a weather file; without a time a sky of 0 lx.

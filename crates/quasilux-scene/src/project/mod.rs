@@ -27,7 +27,7 @@ pub(crate) use cameras::CameraEntry;
 pub(crate) use lights::{Emission, LightEntry};
 pub(crate) use luminaires::LuminaireEntry;
 pub(crate) use materials::{MaterialEntry, Scattering};
-pub(crate) use outside::{OutsideEntry, OutsideLight, WeatherEntry};
+pub(crate) use outside::{OutsideEntry, OutsideLight, PanoramaEntry, WeatherEntry};
 pub(crate) use sensors::SensorEntry;
 
 use crate::{LoadError, Spanned};

@@ -10,6 +10,7 @@ mod materials;
 mod mutations;
 mod obj;
 mod outside;
+mod panorama;
 mod project;
 mod project_cases;
 mod support;

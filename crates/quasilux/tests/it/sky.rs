@@ -302,3 +302,52 @@ fn bad_input_is_refused() {
         assert_eq!(run.stdout, "", "{arguments:?}");
     }
 }
+
+/// A picture of 16 x 8 pixels of one luminance, but for one in the east, 34 degrees high, that is
+/// 4096 times as bright.
+fn panorama() -> Vec<u8> {
+    let mut bytes = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 8 +X 16\n".to_vec();
+    for pixel in 0..8 * 16 {
+        let exponent = if pixel == 2 * 16 + 12 { 142 } else { 130 };
+        bytes.extend_from_slice(&[128, 128, 128, exponent]);
+    }
+    bytes
+}
+
+/// The same figures as an open roof under the picture measures, its bright pixel included.
+#[test]
+fn a_panorama_shines_on_a_roof() {
+    let outside = "[sky]\nmodel = \"panorama\"\nfile = \"sky.hdr\"\nmiddle_azimuth_deg = -11.25\n";
+    let folder = folder("sky_panorama", outside);
+    folder.write("sky.hdr", panorama());
+    let found = document(&folder, &["a.toml", "--png", "sky.png"]);
+    let dim = 179.0 * 128.5 / 64.0;
+    // The projected solid angle of the bright pixel, between 45 and 67.5 degrees from the zenith.
+    let [low, high] = [45.0_f64, 67.5].map(|zenith| sin(zenith.to_radians()));
+    let bright = PI / 16.0 * (high * high - low * low) * 4095.0;
+    let expected = dim * (PI + bright);
+    let lx = number(&found, "/sky/horizontal_illuminance_lx/sky");
+    assert!(share_of(lx, expected) < 1e-6, "{lx}, not {expected}");
+    assert_eq!(
+        (&found["sky"]["model"], &found["sky"]["file"]),
+        (&"panorama".into(), &"sky.hdr".into())
+    );
+    let luminances = found["sky"]["luminances"].as_array().expect("luminances");
+    for entry in luminances {
+        let at = [number(entry, "/altitude_deg"), number(entry, "/azimuth_deg")];
+        // 45 degrees is the edge of the bright pixel.
+        let is_bright = at == [30.0, 90.0] || at == [45.0, 90.0];
+        let expected = if is_bright { 4096.0 * dim } else { dim };
+        assert!(share_of(number(entry, "/luminance_cd_m2"), expected) < 1e-6, "{at:?}");
+    }
+    let run = ["run", "a.toml", "--out", "out", "--quiet", "--rel-tol", "1%"];
+    let done = must(&folder, &run, 0);
+    assert_eq!(done.stderr, "");
+    let result = parsed(&folder.read("out/result.json"));
+    let lx = number(&result, "/sensors/0/points/0/illuminance_lx");
+    assert!(share_of(lx, expected) < 0.02, "{lx}, not {expected}");
+    let broken = folder.read("a.toml").replace("sky.hdr", "floor.obj");
+    folder.write("b.toml", broken);
+    let refused = must(&folder, &["run", "b.toml"], 2).stderr;
+    assert!(refused.contains("floor.obj:1:1: ") && refused.contains("#?RADIANCE"), "{refused}");
+}

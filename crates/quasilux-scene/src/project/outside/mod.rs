@@ -5,14 +5,14 @@ mod sky;
 mod sun;
 
 use super::document::{Section, Value};
-use crate::environment::{Opening, SkyFacts, Sun};
+use crate::environment::{Opening, SkyFacts, SkyModel, Sun};
 use crate::{LoadError, Spanned};
-use quasilux_sky::{LocalTime, Site, Sky, SkyError};
+use quasilux_sky::{LocalTime, Site, Sky, SkyError, SkyLevel};
 use site::Oriented;
 use sky::Lit;
 
-const MODELS: [&str; 4] = ["cie", "perez", "uniform", "weather"];
-const PLANNED_MODELS: [&str; 1] = ["panorama"];
+const MODELS: [&str; 5] = ["cie", "perez", "uniform", "weather", "panorama"];
+const EXPECTED_MODEL: &str = "\"cie\", \"perez\", \"uniform\", \"weather\" or \"panorama\"";
 /// Most openings.
 const MAX_OPENINGS: usize = 10_000;
 
@@ -39,6 +39,15 @@ pub(crate) enum OutsideLight {
     },
     /// A weather file says it.
     Weather(WeatherEntry),
+    /// A picture has the luminances of the sky.
+    Panorama {
+        /// The picture.
+        picture: PanoramaEntry,
+        /// The sun, where its disk shines.
+        sun: Option<Sun>,
+        /// What else is known.
+        facts: SkyFacts,
+    },
 }
 
 /// `[weather]` with what the other sections ask of it.
@@ -54,6 +63,17 @@ pub(crate) struct WeatherEntry {
     pub(crate) site: Option<Spanned<Site>>,
 }
 
+/// The picture of a sky.
+#[derive(Clone, Debug)]
+pub(crate) struct PanoramaEntry {
+    /// Its file.
+    pub(crate) file: Spanned<String>,
+    /// The azimuth of its middle, clockwise from north.
+    pub(crate) middle_azimuth_deg: f64,
+    /// What it is scaled to; `None` where its values are radiances.
+    pub(crate) level: Option<Spanned<SkyLevel>>,
+}
+
 /// `None` where there is no `[sky]`.
 pub(super) fn read(root: &Section<'_>) -> Result<Option<OutsideEntry>, LoadError> {
     let Some(section) = root.table("sky")? else {
@@ -64,8 +84,8 @@ pub(super) fn read(root: &Section<'_>) -> Result<Option<OutsideEntry>, LoadError
         }
         return Ok(None);
     };
-    let model = section.require("model", "\"cie\", \"perez\", \"uniform\" or \"weather\"")?;
-    let name = model.name(&MODELS, &PLANNED_MODELS)?;
+    let model = section.require("model", EXPECTED_MODEL)?;
+    let name = model.name(&MODELS, &[])?;
     let site_section = root.table("site")?;
     let site = site_section.as_ref().map(site::read).transpose()?.unwrap_or_default();
     let light = match (name, root.get("weather")) {
@@ -87,7 +107,7 @@ pub(super) fn read(root: &Section<'_>) -> Result<Option<OutsideEntry>, LoadError
     Ok(Some(OutsideEntry { light, ground_reflectance, north_deg: site.north_deg, openings }))
 }
 
-/// What shines by a model that needs no other file.
+/// What shines by a model that needs no weather file.
 fn known(
     root: &Section<'_>,
     section: &Section<'_>,
@@ -96,20 +116,28 @@ fn known(
 ) -> Result<OutsideLight, LoadError> {
     let sun_section = root.table("sun")?;
     let sun = sun_section.as_ref().map(|section| sun::place(section, site)).transpose()?;
-    let Lit { sky, model, sun_lx } = match model.name(&MODELS, &[])? {
-        "cie" => sky::cie(section, sun.as_ref())?,
-        "perez" => sky::perez(section, model, sun.as_ref())?,
-        _ => sky::uniform(section)?,
-    };
-    let facts = SkyFacts {
+    let facts = |model| SkyFacts {
         model,
         site: site.site,
         time: sun.and_then(|sun| sun.time),
         sun: sun.map(|sun| sun.centre),
     };
-    let shining = sun_section.as_ref().zip(sun.as_ref());
-    let disk = shining.map(|(section, sun)| sun::disk(section, sun, sun_lx)).transpose()?;
-    Ok(OutsideLight::Known { sky, sun: disk.flatten(), facts })
+    let disk = |sun_lx| {
+        let shining = sun_section.as_ref().zip(sun.as_ref());
+        let disk = shining.map(|(section, sun)| sun::disk(section, sun, sun_lx));
+        disk.transpose().map(Option::flatten)
+    };
+    let Lit { sky, model, sun_lx } = match model.name(&MODELS, &[])? {
+        "cie" => sky::cie(section, sun.as_ref())?,
+        "perez" => sky::perez(section, model, sun.as_ref())?,
+        "panorama" => {
+            let picture = sky::panorama(section)?;
+            let facts = facts(SkyModel::Panorama { file: picture.file.value.clone() });
+            return Ok(OutsideLight::Panorama { picture, sun: disk(None)?, facts });
+        }
+        _ => sky::uniform(section)?,
+    };
+    Ok(OutsideLight::Known { sky, sun: disk(sun_lx)?, facts: facts(model) })
 }
 
 /// `[weather]`, which the sky's `model` asks for.

@@ -1,7 +1,7 @@
 //! `[sky]` of a model that needs no other file.
 
-use super::refuse;
 use super::sun::PlacedSun;
+use super::{PanoramaEntry, refuse};
 use crate::LoadError;
 use crate::environment::SkyModel;
 use crate::project::document::{Section, Value};
@@ -75,11 +75,34 @@ pub(super) fn perez(
 /// A sky of the level that the section gives.
 fn scaled(section: &Section<'_>, distribution: Distribution) -> Result<Sky, LoadError> {
     let amount = section.exactly_one(&LEVELS)?;
+    Sky::new(distribution, level(&amount)?).map_err(|error| amount.error(error.to_string()))
+}
+
+/// The level that a value gives.
+fn level(amount: &Value<'_>) -> Result<SkyLevel, LoadError> {
     let level = amount.number("a number, 0 to 1e9", |x| (0.0..=1e9).contains(&x))?;
-    let level = if amount.key == LEVELS[0] {
+    Ok(if amount.key == LEVELS[0] {
         SkyLevel::HorizontalIlluminance { lx: level }
     } else {
         SkyLevel::ZenithLuminance { cd_m2: level }
-    };
-    Sky::new(distribution, level).map_err(|error| amount.error(error.to_string()))
+    })
+}
+
+/// The picture of a sky, and how it is scaled and turned.
+pub(super) fn panorama(section: &Section<'_>) -> Result<PanoramaEntry, LoadError> {
+    section.only(&["model", "file", "middle_azimuth_deg", LEVELS[0], LEVELS[1]], &[])?;
+    let expected = "the name of a panorama in Radiance's format, such as \"sky.hdr\"";
+    let file = section.require("file", expected)?;
+    let file = file.spanned(file.string(expected)?.to_owned());
+    let middle = section.get("middle_azimuth_deg").map(|value| {
+        let expected = "degrees from north, clockwise, -360 to 360";
+        value.number(expected, |x| x.abs() <= 360.0)
+    });
+    let middle_azimuth_deg = middle.transpose()?.unwrap_or(0.0);
+    let is_scaled = LEVELS.iter().any(|key| section.get(key).is_some());
+    let level = is_scaled.then(|| {
+        let amount = section.exactly_one(&LEVELS)?;
+        Ok(amount.spanned(level(&amount)?))
+    });
+    Ok(PanoramaEntry { file, middle_azimuth_deg, level: level.transpose()? })
 }

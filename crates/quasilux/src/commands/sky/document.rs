@@ -118,6 +118,7 @@ impl<'a> SkyEntry<'a> {
             SkyModel::Cie(cie) => ("cie", Some(cie.number()), None),
             SkyModel::Perez => ("perez", None, None),
             SkyModel::Weather { file } => ("weather", None, Some(file.as_str())),
+            SkyModel::Panorama { file } => ("panorama", None, Some(file.as_str())),
         };
         let environment = &sky.environment;
         let sun = sky.facts.sun.map(|sun| SunEntry {

@@ -149,6 +149,7 @@ impl ShownSky {
             }
             SkyModel::Perez => "all-weather sky of Perez".to_owned(),
             SkyModel::Weather { file } => format!("all-weather sky of Perez, by {file}"),
+            SkyModel::Panorama { file } => format!("panorama {file}"),
         }
     }
 
