@@ -2,8 +2,9 @@
 //!
 //! A [`Sky`] has a luminance in every direction above the horizon, a horizontal illuminance and a
 //! zenith luminance. Its distribution is one of the CIE standard general skies ([`CieType`]), that
-//! of a measured hour ([`Perez`]), of a picture ([`Panorama`]) or even; it is scaled by what is known of it ([`SkyLevel`]). The
-//! position of the [`Sun`](SkyPoint) is given or computed of a [`Site`] and a [`LocalTime`].
+//! of a measured hour ([`Perez`]), of a picture ([`Panorama`]) or even; it is scaled by what is
+//! known of it ([`SkyLevel`]). The position of the [`Sun`](SkyPoint) is given or computed of a
+//! [`Site`] and a [`LocalTime`].
 //!
 //! Directions are unit vectors: x east, y north, z up. Azimuths are clockwise from north.
 //!

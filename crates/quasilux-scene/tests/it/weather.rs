@@ -6,7 +6,8 @@ use quasilux_sky::{LocalTime, Weather};
 
 /// A morning and a night; West is positive.
 const WEA: &str = "place Here\nlatitude 37.72\nlongitude 122.22\ntime_zone 120\n\
-    site_elevation 2\nweather_data_file_units 1\n3 20 3.5 0 0\n3 20 11.5 700 90\n3 20 12.5 650 120\n";
+    site_elevation 2\nweather_data_file_units 1\n3 20 3.5 0 0\n3 20 11.5 700 90\n\
+    3 20 12.5 650 120\n";
 
 /// The lines of a project without lamps: what is outside begins on line 4.
 fn project(outside: &str) -> String {
