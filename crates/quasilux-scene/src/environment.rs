@@ -129,11 +129,14 @@ impl Environment {
     }
 
     /// From a direction of the world to one by the compass.
-    fn to_sky(&self, direction: DVec3) -> [f64; 3] {
+    #[must_use]
+    pub fn to_sky(&self, direction: DVec3) -> [f64; 3] {
         turned(direction, -self.north_deg).to_array()
     }
 
-    fn to_world(&self, direction: DVec3) -> DVec3 {
+    /// From a direction by the compass, x east and y north, to one of the world.
+    #[must_use]
+    pub fn to_world(&self, direction: DVec3) -> DVec3 {
         turned(direction, self.north_deg)
     }
 }

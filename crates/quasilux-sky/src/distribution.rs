@@ -67,6 +67,14 @@ impl Distribution {
         }
     }
 
+    /// The panorama that it is of.
+    pub(crate) fn as_panorama(&self) -> Option<&Panorama> {
+        match &self.form {
+            Form::Panorama(panorama) => Some(panorama),
+            _ => None,
+        }
+    }
+
     /// The horizontal illuminance of relative luminances.
     pub(crate) fn horizontal(&self) -> f64 {
         match &self.form {

@@ -37,7 +37,7 @@ pub use cie::CieType;
 pub use distribution::Distribution;
 pub use error::SkyError;
 pub use local_time::LocalTime;
-pub use panorama::{Panorama, PanoramaWarning, ParsedPanorama};
+pub use panorama::{BrightPixel, Panorama, PanoramaWarning, ParsedPanorama};
 pub use perez::{Irradiance, Perez};
 pub use point::SkyPoint;
 pub use sky::{Sky, SkyLevel};

@@ -2,6 +2,7 @@
 
 use crate::distribution::Distribution;
 use crate::error::SkyError;
+use crate::panorama::Panorama;
 use std::f64::consts::PI;
 
 /// What is known of how bright a sky is, without the sun.
@@ -69,6 +70,12 @@ impl Sky {
     #[must_use]
     pub fn luminance_cd_m2(&self, direction: [f64; 3]) -> f64 {
         self.unit_cd_m2 * self.distribution.relative(direction)
+    }
+
+    /// The panorama that it is of, whose luminances may be scaled.
+    #[must_use]
+    pub fn panorama(&self) -> Option<&Panorama> {
+        self.distribution.as_panorama()
     }
 
     /// The luminance of the zenith.

@@ -5,10 +5,12 @@
 //! who stands in the middle sees them. Its upper half is the sky. Each pixel has one luminance, so
 //! that the integral over the sky is an exact sum.
 
+mod bright;
 mod header;
 mod rgbe;
 
 use crate::point::SkyPoint;
+pub use bright::BrightPixel;
 use header::Header;
 use libm::sin;
 use quasilux_text::{ParseError, Position, Warning, Warnings};
@@ -111,22 +113,26 @@ impl Panorama {
         if x == 0.0 && y == 0.0 {
             return self.rows().next().map_or(0.0, mean);
         }
+        f64::from(self.luminances_cd_m2[self.pixel_at(direction)])
+    }
+
+    /// The index of the pixel that shows a direction above the horizon.
+    fn pixel_at(&self, direction: [f64; 3]) -> usize {
         let SkyPoint { altitude_deg, azimuth_deg } = SkyPoint::from_direction(direction);
         let row = (90.0 - altitude_deg) / 90.0 * self.rows_to_horizon;
         let turns = (azimuth_deg - self.middle_azimuth_deg) / 360.0 + 0.5;
         let column = (turns - turns.floor()) * self.width as f64;
         let row = (row.max(0.0) as usize).min(self.rows().len() - 1);
         let column = (column as usize).min(self.width - 1);
-        f64::from(self.luminances_cd_m2[row * self.width + column])
+        row * self.width + column
     }
 
     /// The illuminance of the sky on a horizontal plane in lx: the exact integral.
     #[must_use]
     pub fn horizontal_illuminance_lx(&self) -> f64 {
-        let zenith = |row: usize| (row as f64 / self.rows_to_horizon * FRAC_PI_2).min(FRAC_PI_2);
         let share = |row: usize| {
             // sin^2(b) - sin^2(a) = sin(a + b) sin(b - a)
-            let [a, b] = [zenith(row), zenith(row + 1)];
+            let [a, b] = self.zenith_angles(row);
             sin(a + b) * sin(b - a)
         };
         PI * self.rows().enumerate().map(|(row, pixels)| share(row) * mean(pixels)).sum::<f64>()
@@ -148,6 +154,11 @@ impl Panorama {
             altitude_deg: (90.0 - 90.0 * row / self.rows_to_horizon).max(0.0),
             azimuth_deg: azimuth_deg.rem_euclid(360.0),
         }
+    }
+
+    /// The zenith angles of the edges of a row in rad.
+    fn zenith_angles(&self, row: usize) -> [f64; 2] {
+        [row, row + 1].map(|row| (row as f64 / self.rows_to_horizon * FRAC_PI_2).min(FRAC_PI_2))
     }
 
     fn rows(&self) -> std::slice::ChunksExact<'_, f32> {

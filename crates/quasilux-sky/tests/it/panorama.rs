@@ -279,3 +279,33 @@ fn a_fisheye_picture_is_no_panorama() {
     let error = Panorama::parse(&bytes).expect_err("no panorama");
     assert!(error.to_string().contains("twice as wide as high"), "{error}");
 }
+
+/// Bright pixels: their solid angles add up to that of the sky, and directions in them are theirs.
+#[test]
+fn bright_pixels_are_those_far_above_the_mean() {
+    let mut pixels = [[128, 128, 128, 128]; 50 * 25];
+    let suns = [3 * 50 + 7, 11 * 50 + 49, 12 * 50];
+    suns.iter().for_each(|index| pixels[*index] = [128, 128, 128, 137]);
+    let parse = |pixels: &[[u8; 4]]| {
+        let bytes = picture("", 50, pixels, Writing::Planes);
+        Panorama::parse(&bytes).unwrap().panorama.with_middle_at(77.0)
+    };
+    let panorama = parse(&pixels);
+    let bright = panorama.bright_pixels();
+    assert_eq!(bright.iter().map(|pixel| pixel.index).collect::<Vec<_>>(), suns);
+    let mut numbers = Stream(5);
+    for pixel in &bright {
+        let row = pixel.index / 50;
+        let [top, bottom] = [row, row + 1].map(|row| cos((PI * row as f64 / 25.0).min(FRAC_PI_2)));
+        assert!(near(pixel.solid_angle_sr, TAU / 50.0 * (top - bottom), 1e-12));
+        for _ in 0..200 {
+            let u = [0, 1].map(|_| 1e-6 + numbers.below(999_998) as f64 / 1e6);
+            let direction = panorama.direction_in(pixel.index, u);
+            assert_eq!(panorama.pixel_of(direction), Some(pixel.index), "{u:?}");
+            // Uniform in height.
+            assert!((direction[2] - (top + (bottom - top) * u[0])).abs() < 1e-12);
+        }
+    }
+    assert_eq!(panorama.pixel_of([0.6, 0.0, -0.8]), None);
+    assert!(parse(&[[128, 128, 128, 128]; 50 * 25]).bright_pixels().is_empty());
+}
