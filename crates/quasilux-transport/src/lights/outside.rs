@@ -123,8 +123,8 @@ impl<'a> OutsideLight<'a> {
         self.sun.as_ref().filter(on_disk).map_or(0.0, |sun| sun.luminance_cd_m2)
     }
 
-    /// What comes through one point of the openings or from a bright pixel, weighted against the direction in which the
-    /// path goes on.
+    /// What comes through one point of the openings or from a bright pixel, weighted against the
+    /// direction in which the path goes on.
     pub(crate) fn light_sample<S: Spectrum>(
         &self,
         vertex: &Vertex<'_, S>,
