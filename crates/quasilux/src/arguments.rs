@@ -6,6 +6,7 @@ mod parts;
 mod photometry;
 mod points;
 mod refusal;
+mod sky;
 mod values;
 
 pub(crate) use bsdf::{BsdfArguments, Incidence};
@@ -16,6 +17,7 @@ pub(crate) use parts::{
 pub(crate) use photometry::{DiagramName, PhotometryArguments};
 pub(crate) use points::PointsArguments;
 pub(crate) use refusal::{refusal, unknown_command};
+pub(crate) use sky::{Days, SkyArguments};
 
 use clap::builder::{PossibleValue, PossibleValuesParser};
 use clap::{Args, CommandFactory, Parser, Subcommand};
@@ -41,6 +43,8 @@ pub(crate) enum Command {
     Run(RunArguments),
     /// Say what was understood of a project and what is probably wrong with it, and draw its plan
     Check(CheckArguments),
+    /// Say what shines on a project from outside, draw its sky, and list where the sun is
+    Sky(SkyArguments),
     /// Run the cases of validation/ against their closed forms; exit code 1 when one fails
     Validate(ValidateArguments),
     /// Repeat one of the experiments of the paper, or one of our own; exit code 1 when what it

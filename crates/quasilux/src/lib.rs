@@ -49,6 +49,7 @@ pub fn command_line(words: impl IntoIterator<Item = OsString>) -> Exit {
         Command::Run(arguments) => commands::run(&arguments),
         Command::Validate(arguments) => commands::validate(&arguments),
         Command::Check(arguments) => commands::check(&arguments),
+        Command::Sky(arguments) => commands::sky(&arguments),
         Command::Experiment(arguments) => commands::experiment(&arguments),
         Command::Points(arguments) => commands::points(&arguments),
         Command::Photometry(arguments) => commands::photometry(&arguments),

@@ -58,6 +58,7 @@ const MAY_USE: [(&str, &[&str]); 16] = [
             "quasilux-photometry",
             "quasilux-bsdf",
             "quasilux-scene",
+            "quasilux-sky",
             "quasilux-inspection",
             "quasilux-transport",
             "quasilux-drawing",

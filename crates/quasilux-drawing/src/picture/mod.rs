@@ -27,6 +27,7 @@ mod plan;
 mod plot;
 mod scale;
 mod series;
+mod sky;
 mod tone_map;
 mod window;
 
@@ -41,4 +42,5 @@ pub use plan::{
     PlanPoints, Surfaces, plan,
 };
 pub use series::{LabelledImage, series};
+pub use sky::{SkyPicture, sky};
 pub use tone_map::tone_mapped_png;

@@ -23,7 +23,7 @@ const EFFICACY_ROUNDS: usize = 50;
 const USUAL_EFFICACY_LM_W: f64 = 110.0;
 
 /// What shines in an interval.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct WeatherSky {
     /// The sky without the sun, by Perez.
     pub sky: Sky,

@@ -5,6 +5,7 @@
 //! [`WeatherHour::seconds`] is its middle, where the sun belongs. WEA gives the middle itself.
 
 mod epw;
+mod interval;
 mod light;
 mod row;
 mod wea;

@@ -2,6 +2,7 @@
 
 mod cie;
 mod levels;
+mod panorama;
 mod perez;
 mod sun;
 mod weather;

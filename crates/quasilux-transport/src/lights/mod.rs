@@ -5,6 +5,7 @@
 //! by what `coarse_lights` says. What comes from outside, in `outside`, has no place.
 
 mod area_luminaires;
+mod bright_sky;
 mod coarse_facets;
 mod coarse_lights;
 mod emitting_facets;

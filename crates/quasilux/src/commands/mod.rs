@@ -14,6 +14,7 @@ mod points;
 mod resume;
 mod run;
 mod shard;
+mod sky;
 mod validate;
 
 pub(crate) use bsdf::bsdf;
@@ -29,4 +30,5 @@ pub(crate) use resume::{KeptRun, project_file, resume};
 pub use run::Finished;
 pub(crate) use run::{Folder, Job, count, pool, run, work};
 pub(crate) use shard::shard;
+pub(crate) use sky::sky;
 pub(crate) use validate::validate;

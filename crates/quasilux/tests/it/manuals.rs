@@ -2,9 +2,10 @@
 
 use crate::support::Folder;
 
-const COMMANDS: [&str; 13] = [
+const COMMANDS: [&str; 14] = [
     "run",
     "check",
+    "sky",
     "validate",
     "experiment",
     "points",

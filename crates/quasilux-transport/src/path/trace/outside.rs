@@ -31,7 +31,8 @@ impl AskedOutside {
 }
 
 impl<S: Spectrum> Path<'_, S> {
-    /// Asks for what comes through one point of the openings, and from one of the sun.
+    /// Asks for what comes through one point of the openings or from a bright pixel, and from one
+    /// point of the sun.
     pub(super) fn sample_direct_outside(
         &mut self,
         context: &Context<'_, S>,
@@ -40,7 +41,7 @@ impl<S: Spectrum> Path<'_, S> {
     ) {
         let Some(outside) = &context.lights.outside else { return };
         let surface = self.bounces_asked;
-        if outside.has_portals() {
+        if outside.is_asked_for() {
             let purpose = Purpose::Opening { surface };
             let u = context.draw(&mut self.sampler, purpose, Sampler::next_2d);
             let sample = outside.light_sample(vertex, u);
