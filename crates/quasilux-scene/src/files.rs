@@ -17,17 +17,20 @@ pub enum FileKind {
     Tilt,
     /// A measured surface.
     Bsdf,
+    /// A glazing product of the IGSDB.
+    Glazing,
 }
 
 impl FileKind {
     /// All kinds.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 7] = [
         Self::Geometry,
         Self::MaterialLibrary,
         Self::Buffer,
         Self::Photometry,
         Self::Tilt,
         Self::Bsdf,
+        Self::Glazing,
     ];
 
     /// Most bytes that a file of this kind can have.
@@ -37,6 +40,7 @@ impl FileKind {
             Self::Geometry | Self::Buffer => 2 << 30,
             Self::Bsdf => 256 << 20,
             Self::MaterialLibrary | Self::Photometry => 64 << 20,
+            Self::Glazing => 16 << 20,
             Self::Tilt => 1 << 20,
         }
     }

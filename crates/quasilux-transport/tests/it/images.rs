@@ -278,7 +278,7 @@ fn measured_panes_do_as_their_tables_say() {
     };
     let transmittance = table(&[[0.0, 0.8], [60.0, 0.5], [90.0, 0.0]]);
     let reflectance = table(&[[0.0, 0.0], [60.0, 0.3], [90.0, 1.0]]);
-    let pane = Bsdf::Pane(Pane::Measured { transmittance, reflectance });
+    let pane = Bsdf::Pane(Pane::measured(transmittance, reflectance));
     let mut scene = empty();
     add_panel(&mut scene, at(-9., -9., 1.), DVec3::X * 18., DVec3::Y * 18., pane);
     let (light, below, above) = (at(1.0, 0.0, 2.0), at(-1.0, 0.0, 0.0), at(-1.0, 0.0, 2.0));
