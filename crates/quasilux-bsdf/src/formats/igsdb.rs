@@ -27,7 +27,7 @@
 //! angle, for each polarisation. A coated sheet follows the mean curves of clear or bronze glass
 //! (Finlayson et al. 1993). Between sheets light goes to and fro for ever, for each wavelength and
 //! polarisation. Deviation: LBNL WINDOW combines sheets by means of both polarisations, which gives
-//! up to 1 % less at 60 to 75 degrees for two clear sheets.
+//! less away from the normal: for two clear sheets 0.7 % at 40 degrees, 4 % at 60 and 7 % at 70.
 //!
 //! # Tolerated deviations
 //! | rule | what is made of it | for example |

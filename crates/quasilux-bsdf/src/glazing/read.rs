@@ -22,9 +22,9 @@ const MAX_QUOTED: usize = 120;
 const PRODUCT: &str = "a glazing product of the IGSDB (JSON)";
 
 /// Reads a product file of the International Glazing and Shading Database, JSON of its first or
-/// second interface. Total: any bytes give a product or an error, in memory bounded by
-/// [`max_bsdf_memory_bytes`](crate::max_bsdf_memory_bytes). What is wrong with the JSON is said with
-/// line and column, what is wrong with its values with their path in line 1.
+/// second interface. Total: any bytes give a product or an error, in no more than 8 bytes for each
+/// byte of the file and 4 MiB. What is wrong with the JSON is said with line and column, what is
+/// wrong with its values with their path, in line 1.
 ///
 /// # Errors
 /// [`ParseError`] where it is no JSON, no glazing that light goes straight through, or its spectra
