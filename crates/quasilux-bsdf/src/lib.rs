@@ -63,7 +63,9 @@ pub use color::luminance;
 pub use ddr::read_ddr;
 pub use distribution::Distribution;
 pub use facts::{BsdfFacts, BsdfFormat};
-pub use glazing::{Glazing, GlazingLayer, GlazingProduct, ParsedGlazing, SheetShares, read_glazing};
+pub use glazing::{
+    Glazing, GlazingLayer, GlazingProduct, ParsedGlazing, SheetShares, read_glazing,
+};
 pub use gridded::GriddedTable;
 pub use hemisphere::ScatterSample;
 pub use klems::{AngleBasis, BandDefinition, KlemsTable, ThetaBand};

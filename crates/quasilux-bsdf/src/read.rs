@@ -100,8 +100,12 @@ fn unknown(bytes: &[u8]) -> ParseError {
     } else if contains(bytes, b"{ Units, Wavelength Units }") {
         "spectra of a glazing (Optics, .dat)"
     } else if is_json(bytes) {
-        return ParseError::new(at, "JSON", "a measured surface; a glazing product of the IGSDB \
-            goes into layers of kind = \"glazing\"");
+        return ParseError::new(
+            at,
+            "JSON",
+            "a measured surface; a glazing product of the IGSDB \
+            goes into layers of kind = \"glazing\"",
+        );
     } else if bytes.is_empty() {
         "an empty file"
     } else {

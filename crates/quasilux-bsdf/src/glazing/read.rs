@@ -36,10 +36,11 @@ pub fn read_glazing(bytes: &[u8]) -> Result<ParsedGlazing, ParseError> {
         serde_json::from_str(&text).map_err(|error| json_error(&text, &error))?;
     refuse_scattering(&file)?;
     let is_bare = is_bare(&file);
-    let name = [file.name.0, file.product_name.0, file.product_description.and_then(|it| it.name.0)]
-        .into_iter()
-        .flatten()
-        .find(|name| !name.trim().is_empty());
+    let name =
+        [file.name.0, file.product_name.0, file.product_description.and_then(|it| it.name.0)]
+            .into_iter()
+            .flatten()
+            .find(|name| !name.trim().is_empty());
     let spectral_data = file.spectral_data.and_then(|data| data.spectral_data);
     let blocks = file
         .physical_properties

@@ -133,11 +133,7 @@ impl Slab {
         let a = libm::pow(internal_transmittance, 1.0 / inside);
         let transmittance = (1.0 - r) * (1.0 - r) * a / ((1.0 - r * a) * (1.0 + r * a));
         let reflectance = (r * (1.0 + a * transmittance)).min(1.0 - transmittance);
-        SheetShares {
-            transmittance,
-            front_reflectance: reflectance,
-            back_reflectance: reflectance,
-        }
+        SheetShares { transmittance, front_reflectance: reflectance, back_reflectance: reflectance }
     }
 }
 

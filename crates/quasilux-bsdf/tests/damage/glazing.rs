@@ -20,9 +20,8 @@ pub(crate) fn samples() -> Seeds {
         let shares = "\"tf\": \"0.5\", \"tb\": \"0.5\", \"rf\": \"0.1\", \"rb\": \"0.2\"";
         format!("{{\"w\": \"{um}\", \"specular\": {{{shares}}}}}")
     };
-    let list = |line: &dyn Fn(f64) -> String| {
-        [300.0, 380.0, 550.0, 700.0, 900.0].map(line).join(",\n")
-    };
+    let list =
+        |line: &dyn Fn(f64) -> String| [300.0, 380.0, 550.0, 700.0, 900.0].map(line).join(",\n");
     let first = format!(
         "{{\"name\": \"a\", \"type\": \"glazing\", \"subtype\": \"monolithic\", \"coated_side\": \
          \"Neither\", \"coating_name\": null, \"measured_data\": {{\"is_specular\": true}},\n\

@@ -27,8 +27,11 @@ fn file(words: &str, lines: &[[f64; 4]]) -> String {
     for (number, [nm, t, front, back]) in lines.iter().enumerate() {
         let comma = if number == 0 { "" } else { "," };
         let um = nm / 1000.0;
-        write!(text, "{comma}\n{{\"T\": {t}, \"Rf\": {front}, \"Rb\": {back}, \"wavelength\": {um}}}")
-            .unwrap();
+        write!(
+            text,
+            "{comma}\n{{\"T\": {t}, \"Rf\": {front}, \"Rb\": {back}, \"wavelength\": {um}}}"
+        )
+        .unwrap();
     }
     text + "]}}\n"
 }
@@ -71,10 +74,9 @@ fn apart(a: [f64; 3], b: [f64; 3]) -> f64 {
 #[test]
 fn published_products_give_the_visible_values_that_they_state() {
     // Electrochromic laminate: coated; float glass: uncoated.
-    for (name, eta) in [
-        ("frads-igsdb_product_7406.json", None),
-        ("frads-igsdb_product_7968.json", Some(1.522)),
-    ] {
+    for (name, eta) in
+        [("frads-igsdb_product_7406.json", None), ("frads-igsdb_product_7968.json", Some(1.522))]
+    {
         let Some(bytes) = published(name) else { return };
         let read = read_glazing(&bytes).unwrap();
         assert!(read.warnings.is_empty(), "{name}: {:?}", read.warnings);
@@ -142,7 +144,11 @@ fn ray_sum(sheets: &[[f64; 3]]) -> [f64; 3] {
         // What goes backward and what goes forward in each gap, those outside at the ends.
         let (mut down, mut up) = (vec![0.0; count + 1], vec![0.0; count + 1]);
         let (mut out_front, mut out_back) = (0.0, 0.0);
-        if is_front { down[0] = 1.0 } else { up[count] = 1.0 }
+        if is_front {
+            down[0] = 1.0
+        } else {
+            up[count] = 1.0
+        }
         for _ in 0..20_000 {
             let (mut next_down, mut next_up) = (vec![0.0; count + 1], vec![0.0; count + 1]);
             for (i, [t, front, back]) in sheets.iter().enumerate() {
@@ -187,25 +193,24 @@ fn several_sheets_are_the_sum_over_their_rays() {
     let mut largest = 0.0_f64;
     for count in [2, 2, 2, 2, 3, 3, 4] {
         // Uncoated ones: for each polarisation.
-        let slabs: Vec<[f64; 2]> = (0..count)
-            .map(|_| [numbers.within(1.45, 1.7), numbers.within(0.5, 1.0)])
-            .collect();
+        let slabs: Vec<[f64; 2]> =
+            (0..count).map(|_| [numbers.within(1.45, 1.7), numbers.within(0.5, 1.0)]).collect();
         let products: Vec<GlazingProduct> =
             slabs.iter().map(|[eta, a]| grey(UNCOATED, slab(1e-6, *eta, *a)[0])).collect();
         let all = glazing(&products.iter().map(|it| (it, false)).collect::<Vec<_>>());
         for _ in 0..5 {
             let theta_rad = numbers.within(0.01, 1.5);
             let sheets: Vec<_> = slabs.iter().map(|[eta, a]| slab(theta_rad, *eta, *a)).collect();
-            let polarised = [0, 1].map(|p| ray_sum(&sheets.iter().map(|it| it[p]).collect::<Vec<_>>()));
+            let polarised =
+                [0, 1].map(|p| ray_sum(&sheets.iter().map(|it| it[p]).collect::<Vec<_>>()));
             let found = array(all.visible(libm::cos(theta_rad)));
             assert!(apart(found, mean(polarised)) < 1e-6, "{found:?} not {polarised:?}");
             let unpolarised = ray_sum(&sheets.iter().map(|it| mean(*it)).collect::<Vec<_>>());
             largest = largest.max((found[0] - unpolarised[0]).abs());
         }
         // Coated ones, some turned round: each sheet is as it is alone.
-        let products: Vec<(GlazingProduct, bool)> = (0..count)
-            .map(|_| (random_product(&mut numbers), numbers.next() < 0.5))
-            .collect();
+        let products: Vec<(GlazingProduct, bool)> =
+            (0..count).map(|_| (random_product(&mut numbers), numbers.next() < 0.5)).collect();
         let layers: Vec<_> = products.iter().map(|(it, flipped)| (it, *flipped)).collect();
         let cos = numbers.within(0.02, 1.0);
         let alone: Vec<[f64; 3]> =
@@ -243,7 +248,8 @@ fn sheets_are_combined_by_wavelength() {
 #[test]
 fn coated_sheets_follow_the_published_curves() {
     // Finlayson et al. 1993, as EnergyPlus' engineering reference tabulates them.
-    let clear = |c: f64| -0.0015 + 3.355 * c - 3.840 * c * c + 1.460 * c.powi(3) + 0.0288 * c.powi(4);
+    let clear =
+        |c: f64| -0.0015 + 3.355 * c - 3.840 * c * c + 1.460 * c.powi(3) + 0.0288 * c.powi(4);
     let bronze =
         |c: f64| -0.002 + 2.813 * c - 2.341 * c * c - 0.05725 * c.powi(3) + 0.599 * c.powi(4);
     for t in [0.3, 0.64, 0.65, 0.8] {
@@ -295,12 +301,17 @@ fn no_glazing_makes_light() {
 #[test]
 fn oddities_are_told_and_what_makes_no_sense_is_refused() {
     use WarningKind as K;
-    let visible = |t: f64, front: f64, back: f64| [[300.0, t, front, back], [900.0, t, front, back]];
+    let visible =
+        |t: f64, front: f64, back: f64| [[300.0, t, front, back], [900.0, t, front, back]];
     let stated = "\"integrated_results_summary\": [{\"tfvis\": 0.7, \"rfvis\": 0.1, \
                   \"rbvis\": 0.1}], \"subtype\": \"coated\"";
     let short = [[400.0, 0.8, 0.1, 0.1], [720.0, 0.8, 0.1, 0.1]];
     for (text, kind, needle) in [
-        (file(COATED, &visible(0.9, 0.11, 0.1)), K::SharesExceedOne, "1.0100 together in spectral_data[0]"),
+        (
+            file(COATED, &visible(0.9, 0.11, 0.1)),
+            K::SharesExceedOne,
+            "1.0100 together in spectral_data[0]",
+        ),
         (file(COATED, &visible(0.9, -0.01, 0.1)), K::NegativeScattering, "spectral_data[0]"),
         (file(COATED, &short), K::ShortSpectrum, "from 400 to 720 nm; expected 380 to 780 nm"),
         (file(UNCOATED, &visible(0.8, 0.1, 0.15)), K::UnlikeUncoated, "0.1000 and 0.1500"),
@@ -332,7 +343,10 @@ fn oddities_are_told_and_what_makes_no_sense_is_refused() {
         (file(COATED, &[[5e5, 0.5, 0.1, 0.1], [4e5, 0.5, 0.1, 0.1]]), "expected rising"),
         (file(COATED, &[[-5.0, 0.5, 0.1, 0.1]]), "micrometres within 0.01"),
         (file(COATED, &visible(0.5, 0.1, 0.1)).replace("\"T\"", "\"U\""), "3:"),
-        (file(COATED, &visible(0.5, 0.1, 0.1)).replace("\"T\": 0.5", "\"T\": \"a\""), "found invalid value: string \"a\"; expected a finite number"),
+        (
+            file(COATED, &visible(0.5, 0.1, 0.1)).replace("\"T\": 0.5", "\"T\": \"a\""),
+            "found invalid value: string \"a\"; expected a finite number",
+        ),
         (blocks.replace("\"incidence_angle\": 0", "\"incidence_angle\": 5"), "no angle_blocks"),
         (blocks.replace("}}, ", "}, \"diffuse\": {}}, "), "diffuse values in wavelength_data[0]"),
         ("{\"measured_data\": {\"is_specular\": false}}".to_owned(), "is_specular = false"),

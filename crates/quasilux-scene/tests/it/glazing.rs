@@ -6,9 +6,8 @@ use quasilux_scene::{Bsdf, LoadError, Loaded};
 
 /// A coated product, the same at all wavelengths.
 fn product([t, front, back]: [f64; 3]) -> String {
-    let line = |um: f64| {
-        format!("{{\"T\": {t}, \"Rf\": {front}, \"Rb\": {back}, \"wavelength\": {um}}}")
-    };
+    let line =
+        |um: f64| format!("{{\"T\": {t}, \"Rf\": {front}, \"Rb\": {back}, \"wavelength\": {um}}}");
     format!(
         "{{\"type\": \"glazing\", \"subtype\": \"coated\", \"spectral_data\": \
          {{\"spectral_data\": [{}, {}]}}}}",
@@ -60,10 +59,7 @@ fn layers_stand_behind_one_another_from_the_front_on() {
         ("[\"outer.json\", \"inner.json\"]", both(outer, inner)),
         ("[\"inner.json\", \"outer.json\"]", both(inner, outer)),
         ("[\"outer.json\", { file = \"inner.json\", flipped = true }]", both(outer, turned)),
-        (
-            "[\"outer.json\", \"outer.json\", \"inner.json\"]",
-            both(both(outer, outer), inner),
-        ),
+        ("[\"outer.json\", \"outer.json\", \"inner.json\"]", both(both(outer, outer), inner)),
     ] {
         let found = normal(&format!("layers = {layers}"));
         for (found, expected) in found.iter().zip(expected) {

@@ -58,8 +58,7 @@ fn integral(position: [f64; 3], normal: [f64; 3]) -> f64 {
 
 fn product(pane: [f64; 2]) -> String {
     let [[t, r], _] = sheet(1.0, pane);
-    let line =
-        |um: f64| format!("{{\"wavelength\": {um}, \"T\": {t}, \"Rf\": {r}, \"Rb\": {r}}}");
+    let line = |um: f64| format!("{{\"wavelength\": {um}, \"T\": {t}, \"Rf\": {r}, \"Rb\": {r}}}");
     format!(
         "{{\"type\": \"glazing\", \"subtype\": \"monolithic\", \"spectral_data\": \
          {{\"spectral_data\": [{}, {}]}}}}",
