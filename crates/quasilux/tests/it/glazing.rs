@@ -87,11 +87,8 @@ reflectance = 1
 [[sensors]]
 name = "inside"
 kind = "points"
-points = [
-  { position = [1, 1, 0.5], normal = [0, 0, 1] },
-  { position = [0.3, 2.5, 1.2], normal = [0, -1, 0] },
-  { position = [1.9, 0.4, 1], normal = [-1, 0, 0] },
-]
+points = [[1, 1, 0.5], [0.3, 2.5, 1.2], [1.9, 0.4, 1]]
+normals = [[0, 0, 1], [0, -1, 0], [-1, 0, 0]]
 "#;
 
 fn folder(name: &str) -> Folder {
