@@ -21,11 +21,13 @@ pub enum FileKind {
     Weather,
     /// A picture of the sky in Radiance's format.
     Panorama,
+    /// A glazing product of the IGSDB.
+    Glazing,
 }
 
 impl FileKind {
     /// All kinds.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Geometry,
         Self::MaterialLibrary,
         Self::Buffer,
@@ -34,6 +36,7 @@ impl FileKind {
         Self::Bsdf,
         Self::Weather,
         Self::Panorama,
+        Self::Glazing,
     ];
 
     /// Most bytes that a file of this kind can have.
@@ -44,6 +47,7 @@ impl FileKind {
             Self::Panorama => 1 << 30,
             Self::Bsdf => 256 << 20,
             Self::MaterialLibrary | Self::Photometry | Self::Weather => 64 << 20,
+            Self::Glazing => 16 << 20,
             Self::Tilt => 1 << 20,
         }
     }

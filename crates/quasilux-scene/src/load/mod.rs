@@ -1,5 +1,6 @@
 //! From the bytes of a project to a checked [`Scene`].
 
+mod glazing;
 mod lights;
 mod materials;
 mod measured;

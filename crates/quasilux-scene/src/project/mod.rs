@@ -26,7 +26,7 @@ pub use units::LengthUnit;
 pub(crate) use cameras::CameraEntry;
 pub(crate) use lights::{Emission, LightEntry};
 pub(crate) use luminaires::LuminaireEntry;
-pub(crate) use materials::{MaterialEntry, Scattering};
+pub(crate) use materials::{LayerEntry, MaterialEntry, Scattering};
 pub(crate) use outside::{OutsideEntry, OutsideLight, PanoramaEntry, WeatherEntry};
 pub(crate) use sensors::SensorEntry;
 

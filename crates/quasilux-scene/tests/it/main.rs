@@ -5,6 +5,7 @@ mod attacks;
 mod bad_input;
 mod cameras;
 mod corpus;
+mod glazing;
 mod gltf;
 mod materials;
 mod mutations;

@@ -25,6 +25,7 @@ mod furnace;
 mod glints;
 mod hall;
 mod images;
+mod klems_windows;
 mod many_lights;
 mod map_dimensions;
 mod materials;

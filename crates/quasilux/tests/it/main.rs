@@ -14,6 +14,7 @@ mod embedded;
 mod experiment;
 mod explain;
 mod fingerprint;
+mod glazing;
 mod kept;
 mod limits;
 mod manuals;
