@@ -1,5 +1,6 @@
 //! What can be said on the command line.
 
+mod annual;
 mod bsdf;
 mod check;
 mod parts;
@@ -9,6 +10,7 @@ mod refusal;
 mod sky;
 mod values;
 
+pub(crate) use annual::AnnualArguments;
 pub(crate) use bsdf::{BsdfArguments, Incidence};
 pub(crate) use check::CheckArguments;
 pub(crate) use parts::{
@@ -41,6 +43,8 @@ pub(crate) struct Arguments {
 pub(crate) enum Command {
     /// Simulate a project until every sensor point is known to the wanted tolerance
     Run(RunArguments),
+    /// Simulate the daylight of a year, hour by hour, of the weather file of a project
+    Annual(AnnualArguments),
     /// Say what was understood of a project and what is probably wrong with it, and draw its plan
     Check(CheckArguments),
     /// Say what shines on a project from outside, draw its sky, and list where the sun is

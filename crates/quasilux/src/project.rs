@@ -1,6 +1,6 @@
 //! A loaded project, and the settings that follow from it and the command line.
 
-use crate::arguments::SimulationArguments;
+use crate::arguments::{AnnualArguments, SimulationArguments};
 use crate::digest::SceneIdentity;
 use crate::exit::CliError;
 use crate::forecast;
@@ -109,6 +109,29 @@ pub(crate) fn settings(
     let checked = quasilux_transport::check(&project.loaded.scene, &settings);
     checked.map_err(|error| CliError::in_file(&project.name, None, error))?;
     forecast::expect_memory(&project.loaded, &settings)?;
+    Ok(settings)
+}
+
+/// The settings of a year: the command line before the project file before defaults. A tolerance
+/// of the project file is one of points, not of hours.
+///
+/// # Errors
+/// When a name is unknown, or the settings make no sense together.
+pub(crate) fn annual_settings(
+    project: &Project,
+    arguments: &AnnualArguments,
+) -> Result<Settings, CliError> {
+    let section = &project.loaded.simulation;
+    let mut settings = Settings::default();
+    names_in_section(&mut settings, section, &SimulationArguments::default())?;
+    values_in_section(&mut settings, section);
+    settings.estimator = EstimatorKind::Path;
+    settings.rel_tol = arguments.rel_tol;
+    settings.confidence = arguments.confidence.unwrap_or(settings.confidence);
+    settings.seed = arguments.seed.unwrap_or(settings.seed);
+    settings.max_samples = arguments.samples;
+    let checked = quasilux_transport::check(&project.loaded.scene, &settings);
+    checked.map_err(|error| CliError::in_file(&project.name, None, error))?;
     Ok(settings)
 }
 

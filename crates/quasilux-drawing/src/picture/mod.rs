@@ -30,6 +30,7 @@ mod series;
 mod sky;
 mod tone_map;
 mod window;
+mod year;
 
 pub use caption::Caption;
 pub use cells::{Cell, GridPicture, Surroundings};
@@ -44,3 +45,4 @@ pub use plan::{
 pub use series::{LabelledImage, series};
 pub use sky::{SkyPicture, sky};
 pub use tone_map::tone_mapped_png;
+pub use year::{YearPicture, year};

@@ -126,11 +126,11 @@ impl Sums {
         &mut self,
         context: &Context<'_, S>,
         meshes: &Meshes,
-        place: Place<'_>,
+        place: TargetReplicate<'_>,
         indices: Range<u64>,
         wave: &mut PathWave<S>,
     ) -> u64 {
-        let Place { number, target, replicate } = place;
+        let TargetReplicate { number, target, replicate } = place;
         let points = context.points(replicate, Stream::Paths(number as u64));
         let start = |index: u64| {
             let mut sampler = Sampler::new(&points, index);
@@ -202,7 +202,7 @@ impl Sums {
 
 /// Whose paths they are.
 #[derive(Clone, Copy)]
-pub(super) struct Place<'t> {
+pub(super) struct TargetReplicate<'t> {
     /// The number of the target among all.
     pub(super) number: usize,
     pub(super) target: &'t Target,

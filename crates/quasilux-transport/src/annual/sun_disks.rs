@@ -5,7 +5,7 @@
 //! replicate gets many. The rays that decide are not among those that count, so that no choice of
 //! theirs makes a bias.
 
-use super::coefficients::Place;
+use super::coefficients::TargetReplicate;
 use crate::context::{Context, Stream};
 use crate::purpose::Purpose;
 use crate::spectrum::Spectrum;
@@ -108,11 +108,11 @@ impl SunDisks {
     pub(super) fn trace<S: Spectrum>(
         &mut self,
         context: &Context<'_, S>,
-        place: Place<'_>,
+        place: TargetReplicate<'_>,
         suns: &[ShiningSun],
         paths: u64,
     ) -> u64 {
-        let Place { number, target, replicate } = place;
+        let TargetReplicate { number, target, replicate } = place;
         let points = context.points(replicate, Stream::SunDisks(number as u64));
         let wanted = [PATHS_OF_WHOLE, PATHS_OF_PART].map(|of_one| (paths / of_one).max(1));
         let done = std::mem::replace(&mut self.rays[replicate as usize], wanted);

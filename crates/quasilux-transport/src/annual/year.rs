@@ -1,6 +1,6 @@
 //! The run over a year: blocks of points, each traced until its hours are known well enough.
 
-use super::coefficients::{Meshes, Place, Sums};
+use super::coefficients::{Meshes, Sums, TargetReplicate};
 use super::hours::HourTable;
 use super::sun_disks::{ShiningSun, SunDisks, SunLight};
 use crate::context::Context;
@@ -190,7 +190,8 @@ impl<'y, S: Spectrum> Year<'y, S> {
         let meshes: Vec<Meshes> = (0..replicates).map(mesh).collect();
         let step = hours.len().div_ceil(PROBED_HOURS).max(1);
         let probed: Vec<usize> = (step / 2..hours.len()).step_by(step).collect();
-        let probed_hours: Vec<WeatherSky> = probed.iter().map(|&hour| hours[hour]).collect();
+        let probed_hours: Vec<WeatherSky> =
+            probed.iter().map(|&hour| hours[hour].clone()).collect();
         let tables = |hours: &[WeatherSky]| -> Vec<HourTable> {
             meshes.iter().map(|mesh| HourTable::new(environment, hours, mesh)).collect()
         };
@@ -255,20 +256,21 @@ impl<'y, S: Spectrum> Year<'y, S> {
     fn trace(&self, points: &mut [PointInWork<'_>], samples: u64, work: &mut YearWork) {
         let look_at_suns = |PointInWork { number, target, disks, .. }: &mut PointInWork<'_>| {
             let replicates = 0..self.meshes.len() as u32;
-            let place = |replicate| Place { number: *number, target, replicate };
+            let place = |replicate| TargetReplicate { number: *number, target, replicate };
             let mut look = |place| disks.trace(self.context, place, &self.suns, samples);
             replicates.map(place).map(&mut look).sum::<u64>()
         };
         let open = points.par_iter_mut().filter(|point| !point.is_done);
         work.rays += open.map(look_at_suns).sum::<u64>();
         let open = points.iter_mut().filter(|point| !point.is_done);
-        let mut units: Vec<(Place<'_>, &mut Sums)> = open
+        let mut units: Vec<(TargetReplicate<'_>, &mut Sums)> = open
             .flat_map(|PointInWork { number, target, sums, .. }| {
-                let place = |replicate| Place { number: *number, target, replicate };
+                let place = |replicate| TargetReplicate { number: *number, target, replicate };
                 (0..).map(place).zip(sums).collect::<Vec<_>>()
             })
             .collect();
-        let trace = |wave: &mut PathWave<S>, (place, sums): &mut (Place<'_>, &mut Sums)| {
+        let trace = |wave: &mut PathWave<S>,
+                     (place, sums): &mut (TargetReplicate<'_>, &mut Sums)| {
             let mesh = &self.meshes[place.replicate as usize];
             let indices = sums.paths..samples;
             let paths = indices.end - indices.start;

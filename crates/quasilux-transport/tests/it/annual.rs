@@ -34,7 +34,7 @@ fn hours(numbers: &mut Numbers, count: usize) -> Vec<WeatherSky> {
 fn moment(of: &Environment, hour: &WeatherSky) -> Environment {
     let lx = hour.sun_normal_illuminance_lx;
     let sun = (lx > 0.0).then_some(Sun { centre: hour.sun, normal_illuminance_lx: lx });
-    Environment { sky: hour.sky, sun, ..of.clone() }
+    Environment { sky: hour.sky.clone(), sun, ..of.clone() }
 }
 
 fn year(scene: &Scene, hours: &[WeatherSky], settings: &Settings) -> Vec<PointOfYear> {

@@ -1,5 +1,6 @@
 //! One file a command.
 
+mod annual;
 mod bsdf;
 mod check;
 mod completions;
@@ -17,6 +18,7 @@ mod shard;
 mod sky;
 mod validate;
 
+pub(crate) use annual::annual;
 pub(crate) use bsdf::bsdf;
 pub(crate) use check::{check, document as check_document, marks, text as check_text};
 pub(crate) use completions::completions;
