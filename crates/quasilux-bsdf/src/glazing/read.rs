@@ -216,8 +216,9 @@ fn resampled(lines: &[Line], warnings: &mut Warnings) -> Result<Vec<SheetShares>
 fn at(lines: &[Line], nm: f64) -> SheetShares {
     let behind = lines.partition_point(|line| line.nm < nm);
     let (a, b) = (&lines[behind.saturating_sub(1)], &lines[behind.min(lines.len() - 1)]);
-    let way = if b.nm > a.nm { ((nm - a.nm) / (b.nm - a.nm)).clamp(0.0, 1.0) } else { 0.0 };
-    let between = |of: fn(&SheetShares) -> f64| of(&a.shares) * (1.0 - way) + of(&b.shares) * way;
+    let fraction = if b.nm > a.nm { ((nm - a.nm) / (b.nm - a.nm)).clamp(0.0, 1.0) } else { 0.0 };
+    let between =
+        |of: fn(&SheetShares) -> f64| of(&a.shares) * (1.0 - fraction) + of(&b.shares) * fraction;
     SheetShares {
         transmittance: between(|it| it.transmittance),
         front_reflectance: between(|it| it.front_reflectance),
