@@ -18,16 +18,17 @@
 //! elements.
 //!
 //! # Visible values
-//! Means over 380 to 780 nm, weighted by the CIE illuminant D65 and V (ISO 9050:2003, EN 410:2011), in
-//! steps of 5 nm; between the wavelengths of the file values lie on straight lines.
+//! Means over 380 to 780 nm, weighted by the CIE illuminant D65 and V (ISO 9050:2003, EN 410:2011),
+//! in steps of 5 nm; between the wavelengths of the file values lie on straight lines.
 //!
 //! # Angles
-//! An uncoated sheet is a slab: refractive index and absorption follow from T and the mean of Rf and
-//! Rb for each wavelength, and Fresnel's equations and all inner reflections give the shares at any
-//! angle, for each polarisation. A coated sheet follows the mean curves of clear or bronze glass
-//! (Finlayson et al. 1993). Between sheets light goes to and fro for ever, for each wavelength and
-//! polarisation. Deviation: LBNL WINDOW combines sheets by means of both polarisations, which gives
-//! less away from the normal: for two clear sheets 0.7 % at 40 degrees, 4 % at 60 and 7 % at 70.
+//! An uncoated sheet is a slab: refractive index and absorption follow from T and the mean of Rf
+//! and Rb for each wavelength, and Fresnel's equations and all inner reflections give the shares at
+//! any angle, for each polarisation. A coated sheet follows the mean curves of clear or bronze
+//! glass (Finlayson et al. 1993). Between sheets light goes to and fro for ever, for each
+//! wavelength and polarisation. Deviation: LBNL WINDOW combines sheets by means of both
+//! polarisations, which gives less away from the normal: for two clear sheets 0.7 % at 40 degrees,
+//! 4 % at 60 and 7 % at 70.
 //!
 //! # Tolerated deviations
 //! | rule | what is made of it | for example |

@@ -1,8 +1,8 @@
 //! Weights of wavelengths for daylight as the eye sees it.
 //!
-//! ISO 9050:2003, 3.3, and EN 410:2011, 5.2: the visible value of a spectral one is its mean weighted
-//! by the CIE standard illuminant D65 (CIE 15:2004, table T.1) and the luminous efficiency V (CIE
-//! 018:2019; the same as the 1931 observer's y, CIE 15:2004, table T.4), both here in steps of 5 nm.
+//! ISO 9050:2003 and EN 410:2011: the visible value of a spectral one is its mean weighted by the
+//! CIE standard illuminant D65 (CIE 15:2004, table T.1) and the luminous efficiency V (CIE
+//! 018:2019; the same as the 1931 observer's y), both here in steps of 5 nm.
 
 /// The wavelengths that are weighed: from 380 to 780 nm, in steps of 5.
 pub(super) const WAVELENGTHS: usize = 81;

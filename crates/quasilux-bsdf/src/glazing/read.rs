@@ -5,7 +5,7 @@ use super::photopic::{WAVELENGTHS, wavelength_nm};
 use super::product::{Description, GlazingProduct, ParsedGlazing};
 use super::sheet::SheetShares;
 use crate::warning::{WarningKind, Warnings};
-use quasilux_text::{ParseError, Position, decode, quoted, shortened};
+use quasilux_text::{ParseError, Position, decode, quoted};
 
 /// Wavelengths that a spectrum has to hold, in nm: all but 0.04 % of the light that is seen.
 const NEEDED_NM: [f64; 2] = [410.0, 700.0];
@@ -15,9 +15,6 @@ const MAX_NOISE: f64 = 0.02;
 
 /// Transmittances of both sides differ by no more.
 const MAX_BETWEEN_SIDES: f64 = 1e-3;
-
-/// Characters of what the JSON library says.
-const MAX_QUOTED: usize = 120;
 
 const PRODUCT: &str = "a glazing product of the IGSDB (JSON)";
 
@@ -82,7 +79,8 @@ fn json_error(text: &str, error: &serde_json::Error) -> ParseError {
     let place = format!(" at line {} column {}", error.line(), error.column());
     let message = message.strip_suffix(&place).unwrap_or(&message);
     let (found, expected) = message.rsplit_once(", expected ").unwrap_or((message, PRODUCT));
-    ParseError::new(position, shortened(found, MAX_QUOTED), shortened(expected, MAX_QUOTED))
+    // Pieces of the file are escaped in it.
+    ParseError::new(position, found, expected)
 }
 
 fn refuse_scattering(file: &json::File) -> Result<(), ParseError> {
@@ -216,8 +214,9 @@ fn resampled(lines: &[Line], warnings: &mut Warnings) -> Result<Vec<SheetShares>
 fn at(lines: &[Line], nm: f64) -> SheetShares {
     let behind = lines.partition_point(|line| line.nm < nm);
     let (a, b) = (&lines[behind.saturating_sub(1)], &lines[behind.min(lines.len() - 1)]);
-    let way = if b.nm > a.nm { ((nm - a.nm) / (b.nm - a.nm)).clamp(0.0, 1.0) } else { 0.0 };
-    let between = |of: fn(&SheetShares) -> f64| of(&a.shares) * (1.0 - way) + of(&b.shares) * way;
+    let fraction = if b.nm > a.nm { ((nm - a.nm) / (b.nm - a.nm)).clamp(0.0, 1.0) } else { 0.0 };
+    let between =
+        |of: fn(&SheetShares) -> f64| of(&a.shares) * (1.0 - fraction) + of(&b.shares) * fraction;
     SheetShares {
         transmittance: between(|it| it.transmittance),
         front_reflectance: between(|it| it.front_reflectance),

@@ -1,14 +1,14 @@
 //! One sheet of glass at any angle, from what was measured at normal incidence.
 //!
 //! Uncoated glass is a slab: both boundaries reflect by Fresnel's equations, and light is absorbed
-//! between them. Index and absorption follow from transmittance and reflectance at normal incidence,
-//! in closed form and for each wavelength (Rubin 1985; Finlayson, Arasteh, Huizenga, Rubin and
-//! Reilly 1993, 2.2). The two polarisations are kept apart, also between several sheets.
+//! between them. Index and absorption follow from transmittance and reflectance at normal
+//! incidence, in closed form and for each wavelength (Rubin 1985; Finlayson, Arasteh, Huizenga,
+//! Rubin and Reilly 1993). The two polarisations are kept apart, also between several sheets.
 //!
 //! What happens in a coating or a film is not in the data. Such a sheet follows the mean curves of
-//! clear or bronze glass (the same report, 2.3, as used by LBNL WINDOW and EnergyPlus): bronze where
-//! no more than 64.5 % of visible light passes. Deviation: the curves are scaled so that the values
-//! at normal incidence are those of the file, and held to [0, 1], so that no light is made.
+//! clear or bronze glass (the same report, as used by LBNL WINDOW and EnergyPlus): bronze where no
+//! more than 64.5 % of visible light passes. Deviation: the curves are scaled so that the values at
+//! normal incidence are those of the file, and held to [0, 1], so that no light is made.
 
 use super::photopic::{WAVELENGTHS, visible};
 

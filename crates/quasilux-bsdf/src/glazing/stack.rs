@@ -1,8 +1,8 @@
 //! Several sheets with air between them.
 //!
 //! Light goes to and fro between the sheets for ever: the sums of the series in closed form, sheet
-//! after sheet (the net radiation method of Siegel 1973; ISO 9050:2003, 3.4.2), for each wavelength
-//! and each polarisation, and the visible mean of the result. Gaps absorb nothing, and sheets are
+//! after sheet (the net radiation method of Siegel 1973; ISO 9050:2003), for each wavelength and
+//! each polarisation, and the visible mean of the result. Gaps absorb nothing, and sheets are
 //! thicker than light is coherent.
 
 use super::photopic::{WAVELENGTHS, visible};

@@ -61,7 +61,8 @@ impl Pane {
     }
 
     /// The pane of a glazing, in tables of steps of half a degree, with the front of the glazing on
-    /// the front of the facets. Between the nodes the straight lines are off by less than 0.0005.
+    /// the front of the facets. Between the nodes the straight lines are off by less than 0.0002 up
+    /// to 85 degrees, and by less than 0.004 beyond.
     #[must_use]
     pub fn of_glazing(glazing: &Glazing) -> Self {
         let theta_rad = |step: u32| f64::from(step) / f64::from(STEPS) * FRAC_PI_2;

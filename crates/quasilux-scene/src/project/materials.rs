@@ -30,8 +30,8 @@ const MAX_LAYERS: usize = 10;
 
 /// What `file` is.
 const FILE_NAME: &str = "the name of a file with a measured BSDF";
-const LAYERS: &str = "files of the IGSDB from the front on, [\"outer.json\", { file = \"inner.json\", \
-                      flipped = true }], at most 10";
+const LAYERS: &str = "files of the IGSDB from the front on, [\"outer.json\", { file = \
+                      \"inner.json\", flipped = true }], at most 10";
 const UP: &str = "a direction [x, y, z] with a length";
 
 /// One material.

@@ -183,8 +183,9 @@ impl<S: Spectrum> Bsdf<S> {
         }
     }
 
-    /// What it mirrors of light that comes at this cosine on its front, or on its back, where all of the rest is absorbed or
-    /// goes straight on, so that images can be followed; `None` for other surfaces.
+    /// What it mirrors of light that comes at this cosine on its front, or on its back, where all
+    /// of the rest is absorbed or goes straight on, so that images can be followed; `None` for
+    /// other surfaces.
     pub(crate) fn image_reflectance(&self, cos: f64, front: bool) -> Option<S> {
         match self {
             Self::Mirror(mirror) => Some(mirror.reflectance),

@@ -4,8 +4,8 @@
 //! A clear pane has two boundaries of reflectance r each, and light goes to and fro between them.
 //! For each polarisation the series gives `R = 2 r / (1 + r)` reflected and `T = (1 - r) / (1 + r)`
 //! let through (Stokes 1862, without absorption); unpolarised light has the mean of both. A stated
-//! transmittance scales T at all angles; a measured pane has tables by angle instead, whose sides may
-//! reflect differently. As the index is the same before and behind, radiance is not scaled.
+//! transmittance scales T at all angles; a measured pane has tables by angle instead, whose sides
+//! may reflect differently. As the index is the same before and behind, radiance is not scaled.
 
 use super::BsdfSample;
 use super::fresnel::Boundary;
