@@ -7,7 +7,7 @@
 
 use super::measures::Measure;
 use super::point::PointSummary;
-use super::report::AnnualReport;
+use super::report::{AnnualReport, AnnualRun};
 use super::sensor::{SensorOfYear, ShareOfPoints};
 use crate::json::text;
 use serde::Serialize;
@@ -77,21 +77,26 @@ pub fn annual_json(report: &AnnualReport<'_>) -> String {
             "sunlight_lx": report.thresholds.sunlight_lx,
         }),
         sensors: sensors.collect(),
-        run: json!({
-            "version": run.version,
-            "scene_sha256": run.scene_sha256,
-            "rel_tol": run.settings.rel_tol,
-            "confidence": run.settings.confidence,
-            "replicates": run.settings.effective_replicates(),
-            "seed": run.settings.seed,
-            "sequence": run.settings.sequence.name(),
-            "max_bounces": run.settings.max_bounces,
-            "rays": run.work.rays,
-            "paths": run.work.paths,
-            "seconds": run.seconds,
-            "threads": run.threads,
-        }),
+        run: run_entry(run),
         warnings: &run.warnings,
+    })
+}
+
+/// What it was made of.
+fn run_entry(run: &AnnualRun) -> Value {
+    json!({
+        "version": run.version,
+        "scene_sha256": run.scene_sha256,
+        "rel_tol": run.settings.rel_tol,
+        "confidence": run.settings.confidence,
+        "replicates": run.settings.effective_replicates(),
+        "seed": run.settings.seed,
+        "sequence": run.settings.sequence.name(),
+        "max_bounces": run.settings.max_bounces,
+        "rays": run.work.rays,
+        "paths": run.work.paths,
+        "seconds": run.seconds,
+        "threads": run.threads,
     })
 }
 

@@ -7,9 +7,9 @@ use super::calendar::Calendar;
 pub struct Thresholds {
     /// Enough light: 300 lx (IES LM-83).
     pub enough_lx: f64,
-    /// Below it daylight is of no use, and above the other it is too much: 100 and 3000 lx
-    /// (A. Nabil and J. Mardaljevic, "Useful daylight illuminances", Energy and Buildings 38,
-    /// 2006, with the bounds in use since 2012).
+    /// Below it daylight is of no use, and above the other it is too much: 100 and 3000 lx (A.
+    /// Nabil and J. Mardaljevic, "Useful daylight illuminances", Energy and Buildings 38, 2006,
+    /// with the bounds in use since 2012).
     pub useful_lx: [f64; 2],
     /// Sunlight that glares or heats, straight from the sun: 1000 lx (LM-83).
     pub sunlight_lx: f64,
@@ -101,8 +101,8 @@ impl Measure {
     }
 }
 
-/// All measures of a point, in the order of [`Measure::ALL`]: of its illuminances in lx hour by hour,
-/// those with a sky, and of the part that comes straight from the sun.
+/// All measures of a point, in the order of [`Measure::ALL`]: of its illuminances in lx hour by
+/// hour, those with a sky, and of the part that comes straight from the sun.
 pub(super) fn measures(
     calendar: &Calendar,
     thresholds: &Thresholds,

@@ -1,9 +1,9 @@
-//! What the hours of a year are to those who judge them: autonomy, useful illuminances, sunlight and
-//! exposure, each with its interval.
+//! What the hours of a year are to those who judge them: autonomy, useful illuminances, sunlight
+//! and exposure, each with its interval.
 //!
-//! [`Calendar`] says which hours count, [`point`](PointOfHours) what one sensor point has of them, and
-//! [`sensor`](SensorOfYear) what all points of a sensor have together; [`AnnualReport`] has it all, for
-//! the document, the table, the spreadsheets and the pictures.
+//! [`Calendar`] says which hours count, [`point`](PointOfHours) what one sensor point has of them,
+//! and [`sensor`](SensorOfYear) what all points of a sensor have together; [`AnnualReport`] has it
+//! all, for the document, the table, the spreadsheets and the pictures.
 
 mod calendar;
 mod csv;

@@ -3,7 +3,8 @@
 //! A measure is a function of the mean illuminances of all hours. Left out one after the other,
 //! replicates change it a little; that makes its interval (B. Efron and C. Stein, "The jackknife
 //! estimate of variance", Annals of Statistics 9, 1981), which counts that all hours share their
-//! paths. Hours are counted beside it by their own intervals: surely above, surely below, undecided.
+//! paths. Hours are counted beside it by their own intervals: surely above, surely below,
+//! undecided.
 
 use super::calendar::Calendar;
 use super::measures::{Measure, Thresholds, measures};

@@ -18,14 +18,14 @@ pub struct ShareOfPoints {
 /// What all points of a sensor have together.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SensorOfYear {
-    /// Points with enough light for half of the occupied hours (spatial daylight autonomy,
-    /// sDA 300/50 % of IES LM-83, without blinds).
+    /// Points with enough light for half of the occupied hours (spatial daylight autonomy, sDA
+    /// 300/50 % of IES LM-83, without blinds).
     pub autonomy: ShareOfPoints,
-    /// Points with more than 250 occupied hours of direct sunlight (annual sunlight exposure,
-    /// ASE 1000/250 of LM-83).
+    /// Points with more than 250 occupied hours of direct sunlight (annual sunlight exposure, ASE
+    /// 1000/250 of LM-83).
     pub sunlight: ShareOfPoints,
-    /// The level of EN 17037 that half and 95 % of the points reach together: 0 for none, 1
-    /// minimum (300 and 100 lx), 2 medium (500 and 300 lx), 3 high (750 and 500 lx).
+    /// The level of EN 17037 that half and 95 % of the points reach together: 0 for none, 1 minimum
+    /// (300 and 100 lx), 2 medium (500 and 300 lx), 3 high (750 and 500 lx).
     pub en17037_level: u8,
     /// The lowest and the highest level that it may be.
     pub en17037_bounds: [u8; 2],

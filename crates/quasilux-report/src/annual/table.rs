@@ -1,6 +1,7 @@
 //! The results of a year for a terminal.
 
 use super::measures::Measure;
+use super::point::PointSummary;
 use super::report::AnnualReport;
 use super::sensor::{SensorOfYear, ShareOfPoints};
 use crate::number::count;
@@ -28,36 +29,7 @@ pub fn annual_table(report: &AnnualReport<'_>) -> String {
     }
     text.push_str("\n\n");
     for ((sensor, points), summary) in report.sensors().zip(report.summaries()) {
-        let SensorOfYear { autonomy, sunlight, .. } = summary;
-        let name = &sensor.name;
-        let mean = |measure: Measure| {
-            let values = points.iter().filter_map(|point| point.measure(measure).value);
-            values.sum::<f64>() / points.len().max(1) as f64
-        };
-        let percent = |measure| format!("{:.1} %", 100.0 * mean(measure));
-        let lines = [
-            ("sDA (300 lx, 50 %)", share_text(autonomy)),
-            ("ASE (1000 lx, 250 h)", share_text(sunlight)),
-            ("EN 17037", level_text(&summary)),
-            ("mean DA", percent(Measure::Autonomy)),
-            ("mean cDA", percent(Measure::ContinuousAutonomy)),
-            (
-                "mean UDI",
-                format!(
-                    "{} below 100 lx, {} to 300 lx, {} to 3000 lx, {} above",
-                    percent(Measure::TooLittle),
-                    percent(Measure::Supplementary),
-                    percent(Measure::Autonomous),
-                    percent(Measure::TooMuch),
-                ),
-            ),
-            ("mean exposure", format!("{:.0} klx h a year", 1e-3 * mean(Measure::Exposure))),
-        ];
-        writeln!(text, "{name} ({} points)", count(points.len() as u64)).expect("strings grow");
-        for (what, value) in lines {
-            writeln!(text, "  {what:<22}{value}").expect("strings grow");
-        }
-        text.push('\n');
+        write_sensor(&mut text, &sensor.name, points, &summary);
     }
     let worst = report.points.iter().filter_map(|point| point.relative_half_width);
     let worst = worst.fold(0.0, f64::max);
@@ -77,6 +49,35 @@ pub fn annual_table(report: &AnnualReport<'_>) -> String {
         writeln!(text, "warning: {warning}").expect("strings grow");
     }
     text
+}
+
+fn write_sensor(text: &mut String, name: &str, points: &[PointSummary], summary: &SensorOfYear) {
+    let mean = |measure: Measure| {
+        let values = points.iter().filter_map(|point| point.measure(measure).value);
+        values.sum::<f64>() / points.len().max(1) as f64
+    };
+    let percent = |measure| format!("{:.1} %", 100.0 * mean(measure));
+    let useful = format!(
+        "{} below 100 lx, {} to 300 lx, {} to 3000 lx, {} above",
+        percent(Measure::TooLittle),
+        percent(Measure::Supplementary),
+        percent(Measure::Autonomous),
+        percent(Measure::TooMuch),
+    );
+    let lines = [
+        ("sDA (300 lx, 50 %)", share_text(summary.autonomy)),
+        ("ASE (1000 lx, 250 h)", share_text(summary.sunlight)),
+        ("EN 17037", level_text(summary)),
+        ("mean DA", percent(Measure::Autonomy)),
+        ("mean cDA", percent(Measure::ContinuousAutonomy)),
+        ("mean UDI", useful),
+        ("mean exposure", format!("{:.0} klx h a year", 1e-3 * mean(Measure::Exposure))),
+    ];
+    writeln!(text, "{name} ({} points)", count(points.len() as u64)).expect("strings grow");
+    for (what, value) in lines {
+        writeln!(text, "  {what:<22}{value}").expect("strings grow");
+    }
+    text.push('\n');
 }
 
 fn share_text(share: ShareOfPoints) -> String {
