@@ -7,7 +7,7 @@
 
 use super::measures::Measure;
 use super::point::PointSummary;
-use super::report::{AnnualReport, AnnualRun};
+use super::report::{AnnualReport, AnnualRun, SensorPoints};
 use super::sensor::{SensorOfYear, ShareOfPoints};
 use crate::json::text;
 use serde::Serialize;
@@ -41,7 +41,8 @@ struct SensorEntry<'a> {
 pub fn annual_json(report: &AnnualReport<'_>) -> String {
     let run = &report.run;
     let calendar = report.calendar;
-    let sensors = report.sensors().zip(report.summaries()).map(|((sensor, points), summary)| {
+    let sensors = report.sensors().zip(report.summaries()).map(|(of, summary)| {
+        let SensorPoints { sensor, points } = of;
         let places = sensor.points();
         let points = places.iter().zip(points).map(|(place, point)| {
             let mut entry = Map::new();

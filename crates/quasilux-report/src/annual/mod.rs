@@ -21,6 +21,6 @@ pub use document::annual_json;
 pub use measures::{Measure, Thresholds};
 pub use picture::{AnnualMap, annual_maps, hours_png};
 pub use point::{HourCounts, PointOfHours, PointSummary};
-pub use report::{AnnualReport, AnnualRun};
+pub use report::{AnnualReport, AnnualRun, SensorPoints};
 pub use sensor::{SensorOfYear, ShareOfPoints};
 pub use table::annual_table;

@@ -1,7 +1,7 @@
 //! Pictures of a year: a map of each measure over each grid, and the hours of each sensor.
 
 use super::measures::Measure;
-use super::report::AnnualReport;
+use super::report::{AnnualReport, SensorPoints};
 use crate::PictureOf;
 use crate::number::{brief, count};
 use crate::plan::Lights;
@@ -24,10 +24,10 @@ pub fn annual_maps<'a>(
     of: PictureOf<'a>,
 ) -> impl Iterator<Item = AnnualMap<'a>> {
     let lights = Lights::new(of.scene);
-    report.sensors().flat_map(move |(sensor, points)| {
+    report.sensors().flat_map(move |SensorPoints { sensor, points }| {
         let SensorShape::Grid(grid) = &sensor.shape else { return Vec::new() };
         let map = |measure: Measure| {
-            let (unit, factor) = unit(measure);
+            let Unit { name: unit, factor } = Unit::for_measure(measure);
             let times = |x: Option<f64>| x.map(|x| factor * x);
             let cell = |point: &super::PointSummary| {
                 let figure = point.measure(measure);
@@ -93,12 +93,20 @@ pub fn hours_png(report: &AnnualReport<'_>, sensor: usize, title: &str) -> Optio
 }
 
 /// What a measure is drawn in, and what its values are multiplied with.
-fn unit(measure: Measure) -> (&'static str, f64) {
-    match measure {
-        Measure::SunlitHours => ("h", 1.0),
-        Measure::Exposure => ("klx h", 1e-3),
-        Measure::MedianDaylight => ("lx", 1.0),
-        _ => ("%", 100.0),
+struct Unit {
+    name: &'static str,
+    factor: f64,
+}
+
+impl Unit {
+    fn for_measure(measure: Measure) -> Self {
+        let (name, factor) = match measure {
+            Measure::SunlitHours => ("h", 1.0),
+            Measure::Exposure => ("klx h", 1e-3),
+            Measure::MedianDaylight => ("lx", 1.0),
+            _ => ("%", 100.0),
+        };
+        Self { name, factor }
     }
 }
 

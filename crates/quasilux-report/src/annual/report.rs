@@ -4,7 +4,7 @@ use super::calendar::Calendar;
 use super::measures::Thresholds;
 use super::point::PointSummary;
 use super::sensor::SensorOfYear;
-use quasilux_scene::Scene;
+use quasilux_scene::{Scene, Sensor};
 use quasilux_sky::{Site, Weather};
 use quasilux_transport::{Settings, YearWork};
 use std::ops::Range;
@@ -26,6 +26,15 @@ pub struct AnnualRun {
     pub work: YearWork,
     /// What a reader should know.
     pub warnings: Vec<String>,
+}
+
+/// A sensor with what its points have of the year, as far as they were simulated.
+#[derive(Clone, Copy, Debug)]
+pub struct SensorPoints<'a> {
+    /// The sensor.
+    pub sensor: &'a Sensor,
+    /// Its points.
+    pub points: &'a [PointSummary],
 }
 
 /// The results of a year.
@@ -52,19 +61,19 @@ pub struct AnnualReport<'a> {
 }
 
 impl<'a> AnnualReport<'a> {
-    /// The name of each sensor with its points.
-    pub fn sensors(&self) -> impl Iterator<Item = (&'a quasilux_scene::Sensor, &[PointSummary])> {
+    /// Each sensor with its points.
+    pub fn sensors(&self) -> impl Iterator<Item = SensorPoints<'_>> {
         let mut first = 0;
         self.scene.sensors.iter().map(move |sensor| {
             let own = first..(first + sensor.len()).min(self.points.len());
             first += sensor.len();
-            (sensor, self.points.get(own).unwrap_or_default())
+            SensorPoints { sensor, points: self.points.get(own).unwrap_or_default() }
         })
     }
 
     /// What each sensor has of the year.
     pub fn summaries(&self) -> impl Iterator<Item = SensorOfYear> {
-        self.sensors().map(|(_, points)| SensorOfYear::new(points))
+        self.sensors().map(|of| SensorOfYear::new(of.points))
     }
 
     /// Whether all points reached the tolerance.

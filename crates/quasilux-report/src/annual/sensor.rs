@@ -44,13 +44,13 @@ impl SensorOfYear {
     #[must_use]
     pub fn new(points: &[PointSummary]) -> Self {
         let autonomy = |side: Side| {
-            share(points, |point| side.of(point.measure(Measure::Autonomy)) >= AUTONOMY)
+            share(points, |point| side.take(point.measure(Measure::Autonomy)) >= AUTONOMY)
         };
         let sunlight = |side: Side| {
-            share(points, |point| side.of(point.measure(Measure::SunlitHours)) > SUNLIT_HOURS)
+            share(points, |point| side.take(point.measure(Measure::SunlitHours)) > SUNLIT_HOURS)
         };
         let level = |side: Side| {
-            let median = |point: &PointSummary| side.of(point.measure(Measure::MedianDaylight));
+            let median = |point: &PointSummary| side.take(point.measure(Measure::MedianDaylight));
             let reaches = |[half, most]: &&[f64; 2]| {
                 let mut wanted = [*half, *most].into_iter().zip(SHARES);
                 let of = |(lx, wanted)| share(points, |point| median(point) >= lx) >= wanted;
@@ -82,7 +82,7 @@ enum Side {
 }
 
 impl Side {
-    fn of(self, figure: Figure) -> f64 {
+    fn take(self, figure: Figure) -> f64 {
         let (value, half_width) = (figure.value.unwrap_or(0.0), figure.half_width.unwrap_or(0.0));
         match self {
             Self::Low => value - half_width,

@@ -2,7 +2,7 @@
 
 use super::measures::Measure;
 use super::point::PointSummary;
-use super::report::AnnualReport;
+use super::report::{AnnualReport, SensorPoints};
 use super::sensor::{SensorOfYear, ShareOfPoints};
 use crate::number::count;
 use std::fmt::Write;
@@ -28,7 +28,7 @@ pub fn annual_table(report: &AnnualReport<'_>) -> String {
         write!(text, ", {} unknown and left out", count(unknown as u64)).expect("strings grow");
     }
     text.push_str("\n\n");
-    for ((sensor, points), summary) in report.sensors().zip(report.summaries()) {
+    for (SensorPoints { sensor, points }, summary) in report.sensors().zip(report.summaries()) {
         write_sensor(&mut text, &sensor.name, points, &summary);
     }
     let worst = report.points.iter().filter_map(|point| point.relative_half_width);

@@ -13,8 +13,8 @@ use crate::project::{self, Project};
 use crate::{interrupt, results};
 use quasilux_report::PictureOf;
 use quasilux_report::annual::{
-    AnnualReport, AnnualRun, Calendar, PointOfHours, Thresholds, annual_csv, annual_json,
-    annual_maps, annual_table, hours_csv, hours_png,
+    AnnualReport, AnnualRun, Calendar, PointOfHours, SensorPoints, Thresholds, annual_csv,
+    annual_json, annual_maps, annual_table, hours_csv, hours_png,
 };
 use quasilux_sky::Weather;
 use quasilux_transport::{Control, Settings, YearProgress, YearWork, simulate_year};
@@ -121,7 +121,7 @@ fn write(report: &AnnualReport<'_>, folder: &Path, title: &str) -> Result<(), Cl
     let write = |name: &str, bytes: &[u8]| results::write_atomic(&folder.join(name), bytes);
     write("annual.json", annual_json(report).as_bytes())?;
     write("hours.csv", hours_csv(report).as_bytes())?;
-    for (number, (sensor, points)) in report.sensors().enumerate() {
+    for (number, SensorPoints { sensor, points }) in report.sensors().enumerate() {
         let name = &sensor.name;
         write(&format!("{name}.annual.csv"), annual_csv(sensor, points).as_bytes())?;
         if let Some(png) = hours_png(report, number, title) {

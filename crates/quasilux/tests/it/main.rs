@@ -1,5 +1,6 @@
 //! The program from outside: arguments and files in; exit codes, messages and results out.
 
+mod annual;
 mod area;
 #[cfg(target_os = "linux")]
 mod attacks;
