@@ -2,8 +2,9 @@
 
 use crate::support::Folder;
 
-const COMMANDS: [&str; 14] = [
+const COMMANDS: [&str; 15] = [
     "run",
+    "annual",
     "check",
     "sky",
     "validate",
