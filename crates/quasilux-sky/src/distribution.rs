@@ -67,6 +67,14 @@ impl Distribution {
         }
     }
 
+    /// The gradation that it is of, and the direction of its sun.
+    pub(crate) fn as_gradation(&self) -> Option<(Gradation, [f64; 3])> {
+        match &self.form {
+            Form::Gradation(gradation) => Some((*gradation, self.sun)),
+            _ => None,
+        }
+    }
+
     /// The panorama that it is of.
     pub(crate) fn as_panorama(&self) -> Option<&Panorama> {
         match &self.form {

@@ -31,6 +31,7 @@ mod quadrature;
 mod sky;
 mod solar_day;
 mod sun;
+mod tabulated;
 mod weather;
 
 pub use cie::CieType;
@@ -43,6 +44,7 @@ pub use point::SkyPoint;
 pub use sky::{Sky, SkyLevel};
 pub use solar_day::{SolarDay, SolarPosition};
 pub use sun::{SUN_RADIUS_DEG, Site, solid_angle_of_the_sun_sr, sun_luminance_cd_m2};
+pub use tabulated::TabulatedSky;
 
 pub use weather::{
     ParsedWeather, Weather, WeatherHour, WeatherLight, WeatherSky, WeatherUnits, WeatherWarning,

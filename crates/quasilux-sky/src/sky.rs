@@ -2,6 +2,7 @@
 
 use crate::distribution::Distribution;
 use crate::error::SkyError;
+use crate::gradation::Gradation;
 use crate::panorama::Panorama;
 use std::f64::consts::PI;
 
@@ -76,6 +77,12 @@ impl Sky {
     #[must_use]
     pub fn panorama(&self) -> Option<&Panorama> {
         self.distribution.as_panorama()
+    }
+
+    /// The gradation that it is of, the direction of its sun, and the luminance in cd/m2 of a
+    /// relative luminance of 1.
+    pub(crate) fn gradation(&self) -> Option<(Gradation, [f64; 3], f64)> {
+        self.distribution.as_gradation().map(|(form, sun)| (form, sun, self.unit_cd_m2))
     }
 
     /// The luminance of the zenith.

@@ -5,6 +5,7 @@ mod levels;
 mod panorama;
 mod perez;
 mod sun;
+mod tabulated;
 mod weather;
 
 use quasilux_sky::SkyPoint;

@@ -3,12 +3,14 @@
 use super::coefficients::{Coefficients, Meshes, SunShare};
 use glam::DVec3;
 use quasilux_scene::Environment;
-use quasilux_sky::WeatherSky;
+use quasilux_sky::{TabulatedSky, WeatherSky};
 use rayon::prelude::*;
 use std::f64::consts::FRAC_1_PI;
 
 /// Hours that are worked out together: as many numbers as fit into registers.
 const LANES: usize = 8;
+/// Points that are worked out together, for the same reason.
+const POINTS: usize = 4;
 
 /// The hours as one replicate sees them.
 pub(super) struct HourTable {
@@ -21,8 +23,13 @@ pub(super) struct HourTable {
 }
 
 impl HourTable {
-    /// The hours with the skies of a site that an environment places in the world.
-    pub(super) fn new(environment: &Environment, hours: &[WeatherSky], meshes: &Meshes) -> Self {
+    /// The hours, with tables of their skies, that an environment places in the world.
+    pub(super) fn new(
+        environment: &Environment,
+        hours: &[WeatherSky],
+        skies: &[TabulatedSky],
+        meshes: &Meshes,
+    ) -> Self {
         // Below the horizon the sky goes on as it is there.
         let on_sky = |direction: DVec3| {
             let flat = DVec3 { z: direction.z.max(0.0), ..direction }.normalize_or(DVec3::X);
@@ -34,11 +41,10 @@ impl HourTable {
             let lx = hour.horizontal_illuminance_lx();
             (environment.ground_reflectance * lx * FRAC_1_PI) as f32
         };
-        let group = |hours: &[WeatherSky]| {
+        let group = |(hours, skies): (&[WeatherSky], &[TabulatedSky])| {
             let mut rows = vec![[0.0; LANES]; rows];
-            for (lane, hour) in hours.iter().enumerate() {
-                let exact: Vec<f64> =
-                    nodes.iter().map(|node| hour.sky.luminance_cd_m2(*node)).collect();
+            for (lane, (hour, sky)) in hours.iter().zip(skies).enumerate() {
+                let exact: Vec<f64> = nodes.iter().map(|node| sky.luminance_cd_m2(*node)).collect();
                 for (row, around) in rows.iter_mut().zip(&meshes.sharpened_sky) {
                     let sharp = around.iter().map(|&(node, share)| share * exact[node]);
                     row[lane] = sharp.sum::<f64>() as f32;
@@ -47,7 +53,8 @@ impl HourTable {
             }
             rows
         };
-        let luminances = hours.par_chunks(LANES).flat_map_iter(group).collect();
+        let luminances =
+            hours.par_chunks(LANES).zip(skies.par_chunks(LANES)).flat_map_iter(group).collect();
         let suns = |hour: &WeatherSky| {
             let lx = hour.sun_normal_illuminance_lx;
             let around = (lx > 0.0).then(|| environment.towards(hour.sun)).into_iter();
@@ -61,23 +68,51 @@ impl HourTable {
         Self { hours: hours.len(), luminances, rows, suns }
     }
 
-    /// The illuminance of each hour in lx, but for what comes straight from the sun.
-    pub(super) fn illuminances_lx(&self, of: &Coefficients) -> Vec<f32> {
-        let mut all = Vec::with_capacity(self.luminances.len() / self.rows * LANES);
-        let used = |(row, share): (usize, f32)| (share != 0.0).then_some((row, share));
-        let coefficients = of.sky.iter().copied().chain([of.ground]).enumerate();
-        let coefficients: Vec<(usize, f32)> = coefficients.filter_map(used).collect();
+    /// The illuminance of each hour in lx, but for what comes straight from the sun, of several
+    /// points.
+    pub(super) fn illuminances_lx(&self, of: &[Coefficients]) -> Vec<Vec<f32>> {
+        let mut all = vec![Vec::with_capacity(self.hours + LANES); of.len()];
+        let together: Vec<Vec<Row>> = of.chunks(POINTS).map(used_rows).collect();
+        // The luminances of a group of hours stay in the cache for all points.
         for group in self.luminances.chunks(self.rows) {
-            let mut sums = [0.0; LANES];
-            for &(row, coefficient) in &coefficients {
-                sums.iter_mut().zip(&group[row]).for_each(|(sum, l)| *sum += coefficient * l);
+            for (points, rows) in all.chunks_mut(POINTS).zip(&together) {
+                let mut sums = [[0.0; LANES]; POINTS];
+                for &Row { number, coefficients } in rows {
+                    let luminances = &group[number];
+                    for (sums, coefficient) in sums.iter_mut().zip(coefficients) {
+                        sums.iter_mut()
+                            .zip(luminances)
+                            .for_each(|(sum, l)| *sum += coefficient * l);
+                    }
+                }
+                points.iter_mut().zip(&sums).for_each(|(hours, sums)| hours.extend(sums));
             }
-            all.extend(sums);
         }
-        all.truncate(self.hours);
-        for (sum, suns) in all.iter_mut().zip(&self.suns) {
-            suns.iter().for_each(|&(sun, lx)| *sum += of.suns[sun as usize] * lx);
+        for (hours, of) in all.iter_mut().zip(of) {
+            hours.truncate(self.hours);
+            for (sum, suns) in hours.iter_mut().zip(&self.suns) {
+                suns.iter().for_each(|&(sun, lx)| *sum += of.suns[sun as usize] * lx);
+            }
         }
         all
     }
+}
+
+/// What points have of a node of the sky, or of the ground.
+struct Row {
+    number: usize,
+    coefficients: [f32; POINTS],
+}
+
+/// The rows that any of these points has something of.
+fn used_rows(points: &[Coefficients]) -> Vec<Row> {
+    let rows = points.first().map_or(0, |point| point.sky.len() + 1);
+    let row = |number: usize| {
+        let mut coefficients = [0.0; POINTS];
+        for (coefficient, of) in coefficients.iter_mut().zip(points) {
+            *coefficient = of.sky.get(number).copied().unwrap_or(of.ground);
+        }
+        coefficients.iter().any(|share| *share != 0.0).then_some(Row { number, coefficients })
+    };
+    (0..rows).filter_map(row).collect()
 }

@@ -12,7 +12,7 @@ use crate::stats::observer::Control;
 use crate::stats::targets::{Target, targets};
 use crate::world::frame::Frame;
 use quasilux_scene::{Environment, Rgb, Scene};
-use quasilux_sky::{Distribution, Sky, SkyLevel, WeatherSky};
+use quasilux_sky::{Distribution, Sky, SkyLevel, TabulatedSky, WeatherSky};
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
@@ -137,8 +137,24 @@ struct PointInWork<'t> {
     /// By replicate.
     sums: Vec<Sums>,
     disks: SunDisks,
+    /// Paths of each replicate that it is to have next.
+    goal: u64,
     relative_half_width: Option<f64>,
     is_done: bool,
+}
+
+/// The paths of a point in a replicate.
+struct Unit<'t, 's> {
+    place: TargetReplicate<'t>,
+    sums: &'s mut Sums,
+    goal: u64,
+}
+
+impl PointInWork<'_> {
+    /// Whether it wants more paths, and may have them.
+    fn is_open(&self) -> bool {
+        !self.is_done && self.sums.first().is_some_and(|sums| sums.paths < self.goal)
+    }
 }
 
 fn run<S: Spectrum, T: Send>(
@@ -155,7 +171,7 @@ fn run<S: Spectrum, T: Send>(
     let mut work = YearWork::default();
     for (block, own) in targets.chunks(BLOCK).enumerate() {
         let points = year.simulate(BLOCK * block, own, &mut work);
-        let kept: Vec<T> = points.into_par_iter().map(|point| digest(year.point(&point))).collect();
+        let kept: Vec<T> = year.over(&points).into_par_iter().map(&digest).collect();
         kept.into_iter().for_each(&mut keep);
         let over = (BLOCK * block + own.len()).min(targets.len());
         let at = YearProgress { points: [over, targets.len()], rays: work.rays };
@@ -193,7 +209,10 @@ impl<'y, S: Spectrum> Year<'y, S> {
         let probed_hours: Vec<WeatherSky> =
             probed.iter().map(|&hour| hours[hour].clone()).collect();
         let tables = |hours: &[WeatherSky]| -> Vec<HourTable> {
-            meshes.iter().map(|mesh| HourTable::new(environment, hours, mesh)).collect()
+            let skies: Vec<TabulatedSky> =
+                hours.par_iter().map(|hour| TabulatedSky::new(&hour.sky)).collect();
+            let table = |mesh| HourTable::new(environment, hours, &skies, mesh);
+            meshes.iter().map(table).collect()
         };
         Self {
             context,
@@ -224,55 +243,56 @@ impl<'y, S: Spectrum> Year<'y, S> {
                 target,
                 sums,
                 disks,
+                goal: FIRST.min(self.limit()),
                 relative_half_width: None,
                 is_done: false,
             }
         };
         let mut points: Vec<PointInWork<'t>> = targets.par_iter().enumerate().map(begin).collect();
         work.rays += points.iter().map(|point| point.disks.deciding_rays).sum::<u64>();
-        let limit = self.settings.max_samples.unwrap_or(MOST);
-        let mut samples = FIRST.min(limit);
-        loop {
-            self.trace(&mut points, samples, work);
-            points.par_iter_mut().filter(|point| !point.is_done).for_each(|point| self.look(point));
-            let open = || points.iter().filter(|point| !point.is_done);
-            if open().count() == 0 || samples >= limit {
-                return points;
-            }
-            let worst = open().filter_map(|point| point.relative_half_width).fold(0.0, f64::max);
-            samples = self.next(samples, worst).min(limit);
+        while points.iter().any(PointInWork::is_open) {
+            self.trace(&mut points, work);
+            self.look(&mut points);
         }
+        points
     }
 
-    /// Paths up to which the points that are open are traced next: the next power of two that
+    /// Paths up to which a point that is known so well is traced next: the next power of two that
     /// should do.
-    fn next(&self, samples: u64, worst: f64) -> u64 {
-        let excess = (worst / self.settings.rel_tol).max(1.0);
+    fn next(&self, samples: u64, known: f64) -> u64 {
+        let excess = (known / self.settings.rel_tol).max(1.0);
         let factor = libm::pow(excess, -1.0 / SLOPE).clamp(2.0, GROWTH);
-        samples.saturating_mul(1 << (libm::log2(factor).floor() as u32).max(1))
+        let next = samples.saturating_mul(1 << (libm::log2(factor).floor() as u32).max(1));
+        next.min(self.limit())
     }
 
-    /// Traces the points that are not done up to so many paths in each replicate.
-    fn trace(&self, points: &mut [PointInWork<'_>], samples: u64, work: &mut YearWork) {
-        let look_at_suns = |PointInWork { number, target, disks, .. }: &mut PointInWork<'_>| {
+    /// Most paths of a point in a replicate.
+    fn limit(&self) -> u64 {
+        self.settings.max_samples.unwrap_or(MOST)
+    }
+
+    /// Traces the points that are open up to their goals.
+    fn trace(&self, points: &mut [PointInWork<'_>], work: &mut YearWork) {
+        let look_at_suns = |point: &mut PointInWork<'_>| {
+            let PointInWork { number, target, disks, goal, .. } = point;
             let replicates = 0..self.meshes.len() as u32;
             let place = |replicate| TargetReplicate { number: *number, target, replicate };
-            let mut look = |place| disks.trace(self.context, place, &self.suns, samples);
+            let mut look = |place| disks.trace(self.context, place, &self.suns, *goal);
             replicates.map(place).map(&mut look).sum::<u64>()
         };
-        let open = points.par_iter_mut().filter(|point| !point.is_done);
+        let open = points.par_iter_mut().filter(|point| point.is_open());
         work.rays += open.map(look_at_suns).sum::<u64>();
-        let open = points.iter_mut().filter(|point| !point.is_done);
-        let mut units: Vec<(TargetReplicate<'_>, &mut Sums)> = open
-            .flat_map(|PointInWork { number, target, sums, .. }| {
+        let open = points.iter_mut().filter(|point| point.is_open());
+        let mut units: Vec<Unit<'_, '_>> = open
+            .flat_map(|PointInWork { number, target, sums, goal, .. }| {
                 let place = |replicate| TargetReplicate { number: *number, target, replicate };
-                (0..).map(place).zip(sums).collect::<Vec<_>>()
+                let unit = |(replicate, sums)| Unit { place: place(replicate), sums, goal: *goal };
+                (0..).zip(sums).map(unit).collect::<Vec<_>>()
             })
             .collect();
-        let trace = |wave: &mut PathWave<S>,
-                     (place, sums): &mut (TargetReplicate<'_>, &mut Sums)| {
+        let trace = |wave: &mut PathWave<S>, Unit { place, sums, goal }: &mut Unit<'_, '_>| {
             let mesh = &self.meshes[place.replicate as usize];
-            let indices = sums.paths..samples;
+            let indices = sums.paths..*goal;
             let paths = indices.end - indices.start;
             [sums.trace(self.context, mesh, *place, indices, wave), paths]
         };
@@ -284,32 +304,50 @@ impl<'y, S: Spectrum> Year<'y, S> {
         }
     }
 
-    /// Finds out how well the probed hours of a point are known.
-    fn look(&self, point: &mut PointInWork<'_>) {
-        let mut all = self.values(point, &self.probes);
+    /// Finds out how well the probed hours of the points that are open are known, and how many
+    /// paths should do.
+    fn look(&self, points: &mut [PointInWork<'_>]) {
+        let open: Vec<&PointInWork<'_>> = points.iter().filter(|point| !point.is_done).collect();
+        let mut values = self.values(&open, &self.probes);
         let mut place = vec![None; self.hours];
         self.probed.iter().enumerate().for_each(|(own, &hour)| place[hour] = Some(own));
-        for (replicate, values) in all.iter_mut().enumerate() {
-            for SunLight { hour, lx } in point.disks.illuminances_lx(&self.suns, replicate) {
-                place[hour].into_iter().for_each(|own: usize| values[own] += lx);
+        let open = points.iter_mut().filter(|point| !point.is_done);
+        for (point, all) in open.zip(&mut values) {
+            for (replicate, values) in all.iter_mut().enumerate() {
+                for SunLight { hour, lx } in point.disks.illuminances_lx(&self.suns, replicate) {
+                    place[hour].into_iter().for_each(|own: usize| values[own] += lx);
+                }
             }
+            let known = self.t.map(|t| relative_half_width(all, t));
+            let tolerance = self.settings.rel_tol;
+            point.relative_half_width = known;
+            point.is_done = tolerance > 0.0 && known.is_some_and(|known| known <= tolerance);
+            point.goal = self.next(point.goal, known.unwrap_or(f64::INFINITY));
         }
-        point.relative_half_width = self.t.map(|t| relative_half_width(&all, t));
-        let tolerance = self.settings.rel_tol;
-        point.is_done =
-            tolerance > 0.0 && point.relative_half_width.is_some_and(|known| known <= tolerance);
     }
 
-    /// The hours of a table, by replicate, but for what comes straight from the sun.
-    fn values(&self, point: &PointInWork<'_>, tables: &[HourTable]) -> Vec<Vec<f32>> {
-        let values =
-            |(sums, table): (&Sums, &HourTable)| table.illuminances_lx(&sums.coefficients());
-        point.sums.iter().zip(tables).map(values).collect()
+    /// The hours of tables, by point and replicate, but for what comes straight from the sun.
+    fn values(&self, points: &[&PointInWork<'_>], tables: &[HourTable]) -> Vec<Vec<Vec<f32>>> {
+        let of_replicate = |(replicate, table): (usize, &HourTable)| {
+            let coefficients = |point: &&PointInWork<'_>| point.sums[replicate].coefficients();
+            table.illuminances_lx(&points.iter().map(coefficients).collect::<Vec<_>>())
+        };
+        let by_replicate: Vec<Vec<Vec<f32>>> =
+            tables.par_iter().enumerate().map(of_replicate).collect();
+        let mut by_point = vec![Vec::with_capacity(tables.len()); points.len()];
+        for of_replicate in by_replicate {
+            by_point.iter_mut().zip(of_replicate).for_each(|(all, hours)| all.push(hours));
+        }
+        by_point
     }
 
-    /// All hours of a point that is over.
-    fn point(&self, point: &PointInWork<'_>) -> PointOfYear {
-        let mut illuminance_lx = self.values(point, &self.tables);
+    /// All hours of points that are over.
+    fn over(&self, points: &[PointInWork<'_>]) -> Vec<PointOfYear> {
+        let values = self.values(&points.iter().collect::<Vec<_>>(), &self.tables);
+        points.iter().zip(values).map(|(point, values)| self.point(point, values)).collect()
+    }
+
+    fn point(&self, point: &PointInWork<'_>, mut illuminance_lx: Vec<Vec<f32>>) -> PointOfYear {
         let mut sun_lx = vec![vec![0.0; self.hours]; self.meshes.len()];
         for (replicate, of_sun) in sun_lx.iter_mut().enumerate() {
             for SunLight { hour, lx } in point.disks.illuminances_lx(&self.suns, replicate) {
