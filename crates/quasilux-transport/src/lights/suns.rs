@@ -8,8 +8,6 @@ use glam::{DVec3, Vec3};
 
 /// So many of the places that a vertex may see through the openings are asked.
 const ASKED_THROUGH: usize = 4;
-/// So many of the others: openings need not be complete.
-const ASKED_BESIDE: usize = 1;
 
 /// Directions in which the sun may stand.
 #[derive(Clone, Debug, Default)]
@@ -23,10 +21,19 @@ pub(crate) struct Suns {
 /// Numbers of suns above the horizon of a vertex; working space.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct SunChoice {
+    /// What each sun is to the vertex.
+    sides: Vec<u8>,
+    /// The suns behind an opening.
     through: Vec<u32>,
-    beside: Vec<u32>,
-    is_through: Vec<bool>,
+    /// How many of the others there are.
+    beside: usize,
 }
+
+/// Suns above the horizon of a vertex, and those behind an opening; 0 for those below.
+const BESIDE: u8 = 1;
+const THROUGH: u8 = 3;
+/// Suns so little below the horizon, by the cosine, may be above in double precision.
+const ROUNDING: f32 = 1e-6;
 
 /// The light of one of the suns, of 1 lx on a plane across its rays.
 pub(crate) struct SunSample<S> {
@@ -46,8 +53,17 @@ impl Suns {
         self.directions.len()
     }
 
-    /// Some of the suns, each with its chance: those that stand behind an opening, and a few of the
-    /// others, which may shine through what is no opening.
+    /// Marks the suns below a horizon.
+    fn lower(&self, n: Vec3, sides: &mut [u8]) {
+        let [x, y, z] = &self.coordinates;
+        for (((side, x), y), z) in sides.iter_mut().zip(x).zip(y).zip(z) {
+            // Without branches, many at once.
+            *side *= u8::from(n.x * x + n.y * y + n.z * z > -ROUNDING);
+        }
+    }
+
+    /// Some of the suns, each with its chance: those that stand behind an opening, and one of the
+    /// others, which may shine through what is no opening: openings need not be complete.
     pub(crate) fn samples<S: Spectrum>(
         &self,
         outside: &OutsideLight<'_>,
@@ -57,42 +73,47 @@ impl Suns {
         mut take: impl FnMut(SunSample<S>),
     ) {
         choice.sort(self, outside, vertex);
-        let SunChoice { through, beside, .. } = &choice;
-        for (all, wanted) in [(through, ASKED_THROUGH), (beside, ASKED_BESIDE)] {
-            let asked = all.len().min(wanted);
-            let one_in = all.len() as f64 / asked.max(1) as f64;
-            for k in 0..asked {
-                let place = ((u + k as f64) * one_in) as usize;
-                let sun = all[place.min(all.len() - 1)];
-                let direction = self.directions[sun as usize];
-                let lx = one_in * vertex.cos(direction);
-                let light = vertex.weight(direction) * lx;
-                let sample = LightSample::unless_dark(direction, outside.beyond_m(), light, lx);
-                if let Some(light_sample) = sample {
-                    take(SunSample { sun, light_sample });
-                }
+        let mut ask = |sun: u32, one_in: f64| {
+            let direction = self.directions[sun as usize];
+            let lx = one_in * vertex.cos(direction).max(0.0);
+            let light = vertex.weight(direction) * lx;
+            let sample = LightSample::unless_dark(direction, outside.beyond_m(), light, lx);
+            if let Some(light_sample) = sample {
+                take(SunSample { sun, light_sample });
             }
+        };
+        let SunChoice { sides, through, beside } = choice;
+        let asked = through.len().min(ASKED_THROUGH);
+        let one_in = through.len() as f64 / asked.max(1) as f64;
+        for k in 0..asked {
+            let place = ((u + k as f64) * one_in) as usize;
+            ask(through[place.min(through.len() - 1)], one_in);
+        }
+        let place = ((u * *beside as f64) as usize).min(beside.saturating_sub(1));
+        let mut others = (0_u32..).zip(&*sides).filter(|(_, side)| **side == BESIDE);
+        if let Some((sun, _)) = others.nth(place) {
+            ask(sun, *beside as f64);
         }
     }
 }
 
 impl SunChoice {
-    /// Tells the suns behind an opening from the others.
+    /// Tells the suns behind an opening from the others above the horizon of a vertex.
     fn sort<S: Spectrum>(&mut self, suns: &Suns, outside: &OutsideLight<'_>, v: &Vertex<'_, S>) {
-        let Self { through, beside, is_through } = self;
-        is_through.clear();
-        is_through.resize(suns.len(), !outside.has_portals());
+        let Self { sides, through, beside } = self;
+        sides.clear();
+        sides.resize(suns.len(), if outside.has_portals() { BESIDE } else { THROUGH });
         for corners in outside.portal_corners() {
             let cone = Cone::new(corners.map(|corner| corner - v.position()));
-            cone.into_iter().for_each(|cone| cone.find(suns, is_through));
+            cone.into_iter().for_each(|cone| cone.find(suns, sides));
+        }
+        if let Some(n) = v.only_side() {
+            suns.lower(n.as_vec3(), sides);
         }
         through.clear();
-        beside.clear();
-        for ((sun, &direction), &is_through) in (0..).zip(&suns.directions).zip(&*is_through) {
-            if v.cos(direction) > 0.0 {
-                if is_through { through.push(sun) } else { beside.push(sun) }
-            }
-        }
+        let numbered = (0..).zip(&*sides);
+        through.extend(numbered.filter(|(_, side)| **side == THROUGH).map(|(sun, _)| sun));
+        *beside = sides.iter().filter(|side| **side == BESIDE).count();
     }
 }
 
@@ -113,13 +134,13 @@ impl Cone {
     }
 
     /// Marks the suns in it.
-    fn find(&self, suns: &Suns, is_in: &mut [bool]) {
+    fn find(&self, suns: &Suns, sides: &mut [u8]) {
         let [l, m, n] = self.normals;
         let [x, y, z] = &suns.coordinates;
-        for (((is_in, x), y), z) in is_in.iter_mut().zip(x).zip(y).zip(z) {
+        for (((side, x), y), z) in sides.iter_mut().zip(x).zip(y).zip(z) {
             let along = |n: Vec3| n.x * x + n.y * y + n.z * z;
-            // Without branches, many at once.
-            *is_in |= (along(l) >= 0.0) & (along(m) >= 0.0) & (along(n) >= 0.0);
+            let is_in = (along(l) >= 0.0) & (along(m) >= 0.0) & (along(n) >= 0.0);
+            *side |= THROUGH * u8::from(is_in);
         }
     }
 }
@@ -138,9 +159,9 @@ mod tests {
             let holds = |direction: DVec3| {
                 let mut suns = Suns::default();
                 suns.push(direction.normalize());
-                let mut is_in = [false];
-                cone.find(&suns, &mut is_in);
-                is_in[0]
+                let mut sides = [0];
+                cone.find(&suns, &mut sides);
+                sides[0] == THROUGH
             };
             assert!(holds(a + b + c) && !holds(-(a + b + c)));
             for [away, p, q] in [[a, b, c], [b, c, a], [c, a, b]] {
