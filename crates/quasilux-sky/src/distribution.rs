@@ -67,12 +67,17 @@ impl Distribution {
         }
     }
 
-    /// The gradation that it is of, and the direction of its sun.
-    pub(crate) fn as_gradation(&self) -> Option<(Gradation, [f64; 3])> {
+    /// The gradation that it is of.
+    pub(crate) fn as_gradation(&self) -> Option<&Gradation> {
         match &self.form {
-            Form::Gradation(gradation) => Some((*gradation, self.sun)),
+            Form::Gradation(gradation) => Some(gradation),
             _ => None,
         }
+    }
+
+    /// Towards the sun.
+    pub(crate) fn sun(&self) -> [f64; 3] {
+        self.sun
     }
 
     /// The panorama that it is of.

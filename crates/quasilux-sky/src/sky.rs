@@ -2,7 +2,6 @@
 
 use crate::distribution::Distribution;
 use crate::error::SkyError;
-use crate::gradation::Gradation;
 use crate::panorama::Panorama;
 use std::f64::consts::PI;
 
@@ -79,10 +78,14 @@ impl Sky {
         self.distribution.as_panorama()
     }
 
-    /// The gradation that it is of, the direction of its sun, and the luminance in cd/m2 of a
-    /// relative luminance of 1.
-    pub(crate) fn gradation(&self) -> Option<(Gradation, [f64; 3], f64)> {
-        self.distribution.as_gradation().map(|(form, sun)| (form, sun, self.unit_cd_m2))
+    /// How its luminances are distributed.
+    pub(crate) fn distribution(&self) -> &Distribution {
+        &self.distribution
+    }
+
+    /// The luminance of a relative luminance of 1.
+    pub(crate) fn unit_cd_m2(&self) -> f64 {
+        self.unit_cd_m2
     }
 
     /// The luminance of the zenith.

@@ -31,7 +31,8 @@ impl TabulatedSky {
     /// The table of a sky.
     #[must_use]
     pub fn new(sky: &Sky) -> Self {
-        let around_sun = sky.gradation().map(|(gradation, sun, unit_cd_m2)| {
+        let distribution = sky.distribution();
+        let around_sun = distribution.as_gradation().map(|gradation| {
             let half = |side: f64| {
                 let value = |node: usize| {
                     let chord = SQRT_2 * node as f64 / INTERVALS as f64;
@@ -39,7 +40,13 @@ impl TabulatedSky {
                 };
                 (0..=INTERVALS).map(value).collect()
             };
-            AroundSun { gradation, sun, unit_cd_m2, near: half(1.0), far: half(-1.0) }
+            AroundSun {
+                gradation: *gradation,
+                sun: distribution.sun(),
+                unit_cd_m2: sky.unit_cd_m2(),
+                near: half(1.0),
+                far: half(-1.0),
+            }
         });
         Self { sky: sky.clone(), around_sun }
     }
