@@ -45,7 +45,7 @@ impl Default for Thresholds {
 }
 
 impl Measure {
-    /// All measures, in the order of [`measures`].
+    /// All measures, in the order of documents.
     pub const ALL: [Self; 9] = [
         Self::Autonomy,
         Self::ContinuousAutonomy,
