@@ -6,6 +6,16 @@
 //! by the power heuristic, so that an opening that stands somewhere else, or for a part, costs
 //! noise and no light. The sun's disk is small: it is asked for, and found by rays alone that no
 //! place could ask along.
+//!
+//! How photons come in, see `photons`.
+
+mod apertures;
+mod directions;
+mod hull;
+mod looks;
+mod photons;
+
+pub(crate) use photons::{Beside, OutsidePhoton, OutsidePhotons};
 
 use crate::lights::seen_triangle::SeenTriangle;
 use crate::lights::selection::{Asking, DEFENSIVE_SHARE};
@@ -155,11 +165,7 @@ impl<'a> OutsideLight<'a> {
         u: [f64; 2],
     ) -> Option<LightSample<S>> {
         let sun = self.sun.as_ref()?;
-        let down = sun.solid_angle_sr / TAU * u[0];
-        let aside = (down * (2.0 - down)).sqrt();
-        let (sin, cos) = libm::sincos(TAU * u[1]);
-        let local = DVec3::new(aside * cos, aside * sin, 1.0 - down);
-        let direction = sun.frame.to_world(local);
+        let direction = sun.sample_direction(u);
         let cos = vertex.cos(direction);
         if cos <= 0.0 {
             return None;
@@ -210,6 +216,16 @@ impl<'a> OutsideLight<'a> {
     }
 }
 
+impl SunDisk {
+    /// A direction to it, evenly over its solid angle.
+    fn sample_direction(&self, u: [f64; 2]) -> DVec3 {
+        let down = self.solid_angle_sr / TAU * u[0];
+        let aside = (down * (2.0 - down)).sqrt();
+        let (sin, cos) = libm::sincos(TAU * u[1]);
+        self.frame.to_world(DVec3::new(aside * cos, aside * sin, 1.0 - down))
+    }
+}
+
 impl Seen {
     fn weight(seen: &Option<Self>) -> f64 {
         seen.as_ref().map_or(0.0, |seen| seen.weight)
@@ -222,5 +238,10 @@ impl Portal {
         let [a, b, c] = corners;
         let n = (b - a).cross(c - a).try_normalize()?;
         Some(Self { corners: Corners::new(corners), n })
+    }
+
+    fn area_m2(&self) -> f64 {
+        let [a, b, c] = self.corners.points();
+        0.5 * (b - a).cross(c - a).length()
     }
 }

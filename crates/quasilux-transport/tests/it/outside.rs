@@ -11,11 +11,11 @@ use quasilux_transport::{Estimates, EstimatorKind, Settings, simulate};
 use std::f64::consts::PI;
 
 /// The refractive index of the panes.
-const ETA: f64 = 1.52;
+pub(crate) const ETA: f64 = 1.52;
 
 /// What a pane lets through: two faces between which light goes to and fro, by Fresnel's equations
 /// for both polarisations.
-fn clear_pane(cos: f64) -> f64 {
+pub(crate) fn clear_pane(cos: f64) -> f64 {
     let inside = (1.0 - (1.0 - cos * cos) / (ETA * ETA)).sqrt();
     let reflected =
         [(cos - ETA * inside) / (cos + ETA * inside), (ETA * cos - inside) / (ETA * cos + inside)];
@@ -23,26 +23,26 @@ fn clear_pane(cos: f64) -> f64 {
 }
 
 /// Numbers in [0, 1) for rooms at random.
-struct Numbers(u64);
+pub(crate) struct Numbers(pub(crate) u64);
 
 impl Numbers {
-    fn next(&mut self) -> f64 {
+    pub(crate) fn next(&mut self) -> f64 {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963);
         (self.0 >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    fn within(&mut self, low: f64, high: f64) -> f64 {
+    pub(crate) fn within(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.next()
     }
 }
 
 /// A room whose wall y = 0 has a window.
-struct Room {
-    scene: Scene,
-    window: Opening,
+pub(crate) struct Room {
+    pub(crate) scene: Scene,
+    pub(crate) window: Opening,
 }
 
-fn room_with_window(numbers: &mut Numbers, reflectance: f64) -> Room {
+pub(crate) fn room_with_window(numbers: &mut Numbers, reflectance: f64) -> Room {
     let size =
         DVec3::new(numbers.within(3.0, 7.0), numbers.within(3.0, 6.0), numbers.within(2.4, 4.0));
     let mut scene = room(size, diffuse(reflectance));
@@ -73,7 +73,7 @@ fn room_with_window(numbers: &mut Numbers, reflectance: f64) -> Room {
 }
 
 /// A sky of 10 000 lx over a ground, both at random.
-fn outside(numbers: &mut Numbers) -> Environment {
+pub(crate) fn outside(numbers: &mut Numbers) -> Environment {
     let number = 1 + (16.0 * numbers.next()) as i64;
     let sun = SkyPoint {
         altitude_deg: numbers.within(5.0, 85.0),
@@ -91,7 +91,7 @@ fn outside(numbers: &mut Numbers) -> Environment {
 }
 
 /// The same luminance from everywhere.
-fn even(cd_m2: f64) -> Environment {
+pub(crate) fn even(cd_m2: f64) -> Environment {
     let level = SkyLevel::ZenithLuminance { cd_m2 };
     Environment {
         sky: Sky::new(Distribution::uniform(), level).unwrap(),
@@ -114,7 +114,7 @@ fn intervals(estimates: &Estimates) -> Vec<[f64; 2]> {
 }
 
 /// Illuminances through an opening in a black room, by midpoints of small rectangles.
-fn through(
+pub(crate) fn through(
     opening: &Opening,
     environment: &Environment,
     transmittance: impl Fn(f64) -> f64,
