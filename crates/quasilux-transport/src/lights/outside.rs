@@ -150,7 +150,7 @@ impl<'a> OutsideLight<'a> {
         let lx_sr = self.luminance_cd_m2(direction) * cos;
         let illuminance_lx = lx_sr / (pdf_sr + beside_sr * (beside_sr / pdf_sr));
         let light = vertex.weight(direction) * illuminance_lx;
-        LightSample::unless_dark(direction, self.beyond_m, light, illuminance_lx)
+        self.light_sample_of(direction, light, illuminance_lx)
     }
 
     /// Density in sr^-1 with which [`Self::light_sample`] asks along a direction.
@@ -172,7 +172,17 @@ impl<'a> OutsideLight<'a> {
         }
         let illuminance_lx = sun.luminance_cd_m2 * sun.solid_angle_sr * cos;
         let light = vertex.weight(direction) * illuminance_lx;
-        LightSample::unless_dark(direction, self.beyond_m, light, illuminance_lx)
+        self.light_sample_of(direction, light, illuminance_lx)
+    }
+
+    fn light_sample_of<S: Spectrum>(
+        &self,
+        direction: DVec3,
+        light: S,
+        illuminance_lx: f64,
+    ) -> Option<LightSample<S>> {
+        let sample = LightSample::unless_dark(direction, self.beyond_m, light, illuminance_lx)?;
+        Some(LightSample { is_from_outside: true, ..sample })
     }
 
     /// The portals as a place sees them.

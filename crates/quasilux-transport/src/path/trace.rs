@@ -238,7 +238,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
 
     /// What became of light that the path asked for.
     pub(crate) fn hear(&mut self, answer: &Answer<S>) {
-        if self.subpath.is_some() {
+        if self.subpath.is_some() && !answer.is_from_outside {
             let light = answer.light.luminance();
             self.found.asked.push(if answer.bounces.is_some() { light } else { -light });
         }

@@ -26,7 +26,7 @@ use glam::DVec3;
 use quasilux_scene::{Scene, SensorShape};
 
 /// The least share of the photons, where there are openings, for lines beside them, and the most.
-const BESIDE_OPENINGS: [f64; 2] = [0.1, 0.9];
+const BESIDE_OPENINGS: [f64; 2] = [0.03, 0.9];
 /// Light from outside gets this many times the photons of the lamps at most, and lamps as many
 /// times those of it: either may be what the sensors see.
 const MOST_BESIDE_LAMPS: f64 = 4.0;
