@@ -2,7 +2,7 @@
 //!
 //! A file is read ([`read_bsdf`]) into a [`MeasuredBsdf`]: for each side of a thin sheet, what is
 //! reflected and what passes, as a [`Distribution`]. Each kind of table keeps the cells that it was
-//! stored with; none is turned into another.
+//! stored with; none is turned into another. Clear glass is [`read_glazing`]'s, and has no lobes.
 //!
 //! ```
 //! use glam::DVec3;
@@ -41,6 +41,7 @@ mod facts;
 pub mod formats;
 mod from_function;
 mod gaps;
+mod glazing;
 mod gridded;
 mod hemisphere;
 mod klems;
@@ -62,6 +63,9 @@ pub use color::luminance;
 pub use ddr::read_ddr;
 pub use distribution::Distribution;
 pub use facts::{BsdfFacts, BsdfFormat};
+pub use glazing::{
+    Glazing, GlazingLayer, GlazingProduct, ParsedGlazing, SheetShares, read_glazing,
+};
 pub use gridded::GriddedTable;
 pub use hemisphere::ScatterSample;
 pub use klems::{AngleBasis, BandDefinition, KlemsTable, ThetaBand};

@@ -99,12 +99,23 @@ fn unknown(bytes: &[u8]) -> ParseError {
         "a container of tensors (RGL, .bsdf or .pbsdf)"
     } else if contains(bytes, b"{ Units, Wavelength Units }") {
         "spectra of a glazing (Optics, .dat)"
+    } else if is_json(bytes) {
+        return ParseError::new(
+            at,
+            "JSON",
+            "a measured surface; a glazing product of the IGSDB \
+            goes into layers of kind = \"glazing\"",
+        );
     } else if bytes.is_empty() {
         "an empty file"
     } else {
         "none of their marks"
     };
     ParseError::new(at, found, "a measured surface: WINDOW XML, MERL, ASTM E1392 or DDR")
+}
+
+fn is_json(bytes: &[u8]) -> bool {
+    bytes.trim_ascii_start().starts_with(b"{") && bytes.trim_ascii_end().ends_with(b"}")
 }
 
 /// Whether the mark stands near the beginning.

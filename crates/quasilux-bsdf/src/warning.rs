@@ -77,6 +77,20 @@ pub enum WarningKind {
     LayersLeftOut,
     /// WINDOW: an angular basis ends before the horizon. Light beyond is neither taken nor sent.
     BasisEndsEarly,
+    /// IGSDB: transmittance and reflectance of a wavelength add up to more than 1. They are scaled
+    /// down.
+    SharesExceedOne,
+    /// IGSDB: the spectrum does not reach from 380 to 780 nm. Beyond, values are as at its ends.
+    ShortSpectrum,
+    /// IGSDB: transmittances of both sides differ, which no sheet allows. Their mean is read.
+    TransmittancesDiffer,
+    /// IGSDB: values are given for several incidences. Those at normal incidence are read.
+    OtherIncidences,
+    /// IGSDB: a sheet that is called uncoated does not look so. Its angles are read as those of a
+    /// coated one.
+    UnlikeUncoated,
+    /// IGSDB: stated visible values differ from those of the spectrum. The spectrum counts.
+    StatedOtherwise,
     /// Surfaces: more light is scattered than arrives. The table is used as it is.
     EnergyNotConserved,
     /// Surfaces: exchanging both directions changes the value by more than 1 % in the mean. The

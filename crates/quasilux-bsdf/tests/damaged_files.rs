@@ -32,6 +32,38 @@ fn damaged_files_never_panic_and_never_take_more_memory_than_stated() {
     }
 }
 
+/// Damaged glazing products: those that load are looked at, at some angles.
+const PRODUCTS: u64 = 20_000;
+
+#[test]
+fn damaged_glazings_never_panic_and_never_make_light() {
+    let seeds = damage::glazing::seeds();
+    let read = seeds.files().iter().filter(|file| damage::glazing::examine(file).is_read).count();
+    assert!(read >= 2, "{read}");
+    let Outcomes { read, max_bytes } =
+        examine_damaged(&seeds, 0..PRODUCTS, damage::glazing::examine);
+    println!("{read} of {PRODUCTS} load; at most {max_bytes} bytes allocated at one time");
+    assert!(read > PRODUCTS / 50 && read < PRODUCTS - PRODUCTS / 20, "{read} load");
+    const LENGTH: usize = 1 << 20;
+    let whole = |head: &str, inside: &str, tail: &str| {
+        format!("{head}{}{tail}", vec![inside; LENGTH / inside.len()].join(","))
+    };
+    let blocks = "{\"physical_properties\": {\"optical_properties\": {\"optical_data\": \
+                  {\"angle_blocks\": [";
+    for text in [
+        whole("{\"integrated_results_summary\": [", "{}", "]}"),
+        whole(blocks, "{\"incidence_angle\":1,\"wavelength_data\":[]}", "]}}}}"),
+        whole("{\"spectral_data\": [", "{\"T\":1,\"Rf\":0,\"Rb\":0,\"wavelength\":1}", "]}"),
+        whole("{\"name\": [", "1", "]}"),
+        format!("{{\"name\": \"{}\"}}", "\\u00e9".repeat(LENGTH / 6)),
+        "[".repeat(LENGTH),
+        "\n".repeat(LENGTH),
+    ] {
+        damage::glazing::examine(text.as_bytes());
+    }
+    damage::glazing::examine(&[&b"\xFF\xFE"[..], &b"\x11\x11".repeat(LENGTH / 2)].concat());
+}
+
 /// Bytes a byte that tables as programs write them may take beside the file: 200 MB of them less
 /// than 1.8 GiB with it.
 const MAX_OF_TABLES: f64 = 8.0;

@@ -10,6 +10,7 @@
 #[cfg(test)]
 pub(crate) mod example;
 
+pub mod annual;
 pub mod camera;
 pub mod csv;
 mod figure;

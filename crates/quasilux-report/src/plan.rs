@@ -28,6 +28,7 @@ pub fn plan(scene: &Scene, title: &str, marks: &[PlanMark]) -> Drawing {
         points: &named.collect::<Vec<_>>(),
         cameras: &scene.cameras.iter().map(camera).collect::<Vec<_>>(),
         marks,
+        north_deg: scene.environment.as_ref().map_or(0.0, |outside| outside.north_deg),
     })
 }
 

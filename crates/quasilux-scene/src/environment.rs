@@ -1,7 +1,7 @@
 //! What is outside: the sky, the sun, the ground, and the openings that they shine through.
 
 use glam::DVec3;
-use quasilux_sky::{Sky, SkyPoint, sun_luminance_cd_m2};
+use quasilux_sky::{CieType, LocalTime, Site, Sky, SkyPoint, sun_luminance_cd_m2};
 use std::f64::consts::{FRAC_1_PI, FRAC_PI_2};
 
 /// Everything beyond the triangles: light that comes from infinitely far away.
@@ -39,6 +39,48 @@ pub struct Opening {
     pub v: DVec3,
 }
 
+/// What a sky was made of, for what is said of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SkyFacts {
+    /// How its luminances are distributed.
+    pub model: SkyModel,
+    /// Where on the earth it is, where that is known.
+    pub site: Option<Site>,
+    /// The time that the sun's place is of, by the clock of the site, where a time gave it.
+    pub time: Option<LocalTime>,
+    /// The centre of the sun, whether its disk shines or not; it may be below the horizon.
+    pub sun: Option<SkyPoint>,
+}
+
+/// How the luminances of a sky are distributed.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SkyModel {
+    /// Evenly.
+    Uniform,
+    /// As a CIE standard general sky.
+    Cie(CieType),
+    /// By Perez, of irradiances in the project file.
+    Perez,
+    /// By Perez, of an interval of a weather file; of none where the project names no time.
+    Weather {
+        /// The file, as the project file writes it.
+        file: String,
+    },
+    /// As a picture has them.
+    Panorama {
+        /// The file, as the project file writes it.
+        file: String,
+    },
+}
+
+impl SkyFacts {
+    /// Whether the sky is that of no time: the project names a weather file, and no time.
+    #[must_use]
+    pub fn lacks_time(&self) -> bool {
+        matches!(self.model, SkyModel::Weather { .. }) && self.time.is_none()
+    }
+}
+
 impl Environment {
     /// The luminance of the sky or of the ground in a direction of the world, a unit vector, in
     /// cd/m2; without the disk of the sun.
@@ -60,7 +102,13 @@ impl Environment {
     /// Towards the centre of the sun, a unit vector of the world.
     #[must_use]
     pub fn sun_direction(&self) -> Option<DVec3> {
-        self.sun.map(|sun| self.to_world(DVec3::from_array(sun.centre.to_direction())))
+        self.sun.map(|sun| self.towards(sun.centre))
+    }
+
+    /// Towards a point of the sky, a unit vector of the world.
+    #[must_use]
+    pub fn towards(&self, point: SkyPoint) -> DVec3 {
+        turned(DVec3::from_array(point.to_direction()), self.north_deg)
     }
 
     /// The illuminance in lx on a horizontal plane that nothing shades: of the sky, and of the sun
@@ -74,18 +122,27 @@ impl Environment {
         self.sky.horizontal_illuminance_lx() + of_sun
     }
 
+    /// Whether nothing shines: a sky of 0 lx without a sun.
+    #[must_use]
+    pub fn is_dark(&self) -> bool {
+        self.sky.horizontal_illuminance_lx() <= 0.0 && self.sun.is_none()
+    }
+
     /// The luminance of the ground, lit by the whole sky, in cd/m2.
     #[must_use]
     pub fn ground_luminance_cd_m2(&self) -> f64 {
         self.ground_reflectance * self.horizontal_illuminance_lx() * FRAC_1_PI
     }
 
-    /// From a direction of the world to one by the compass.
-    fn to_sky(&self, direction: DVec3) -> [f64; 3] {
+    /// From a direction of the world to one by the compass: x east, y north, z up.
+    #[must_use]
+    pub fn to_sky(&self, direction: DVec3) -> [f64; 3] {
         turned(direction, -self.north_deg).to_array()
     }
 
-    fn to_world(&self, direction: DVec3) -> DVec3 {
+    /// From a direction by the compass, x east and y north, to one of the world.
+    #[must_use]
+    pub fn to_world(&self, direction: DVec3) -> DVec3 {
         turned(direction, self.north_deg)
     }
 }

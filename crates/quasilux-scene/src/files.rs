@@ -17,17 +17,26 @@ pub enum FileKind {
     Tilt,
     /// A measured surface.
     Bsdf,
+    /// Weather of a site: EPW or WEA.
+    Weather,
+    /// A picture of the sky in Radiance's format.
+    Panorama,
+    /// A glazing product of the IGSDB.
+    Glazing,
 }
 
 impl FileKind {
     /// All kinds.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 9] = [
         Self::Geometry,
         Self::MaterialLibrary,
         Self::Buffer,
         Self::Photometry,
         Self::Tilt,
         Self::Bsdf,
+        Self::Weather,
+        Self::Panorama,
+        Self::Glazing,
     ];
 
     /// Most bytes that a file of this kind can have.
@@ -35,8 +44,10 @@ impl FileKind {
     pub const fn max_bytes(self) -> u64 {
         match self {
             Self::Geometry | Self::Buffer => 2 << 30,
+            Self::Panorama => 1 << 30,
             Self::Bsdf => 256 << 20,
-            Self::MaterialLibrary | Self::Photometry => 64 << 20,
+            Self::MaterialLibrary | Self::Photometry | Self::Weather => 64 << 20,
+            Self::Glazing => 16 << 20,
             Self::Tilt => 1 << 20,
         }
     }

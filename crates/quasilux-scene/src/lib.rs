@@ -26,7 +26,7 @@ pub mod solids;
 
 pub use bsdf::Bsdf;
 pub use camera::{Camera, View};
-pub use environment::{Environment, Opening, Sun};
+pub use environment::{Environment, Opening, SkyFacts, SkyModel, Sun};
 pub use error::{LoadError, Spanned, Warning};
 pub use files::{FileKind, Files, TriangleArrays, too_large};
 pub use light::Light;

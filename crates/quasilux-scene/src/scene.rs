@@ -2,6 +2,7 @@
 
 use crate::environment::Environment;
 use crate::{Bsdf, Camera, Light, Mesh, Sensor};
+use quasilux_sky::Weather;
 
 /// Everything that exists in a room.
 #[derive(Clone, Debug, Default)]
@@ -14,6 +15,9 @@ pub struct Scene {
     pub lights: Vec<Light>,
     /// What shines from outside.
     pub environment: Option<Environment>,
+    /// The weather file that the sky is of: all of it, of which `environment` has one interval or,
+    /// where the project names no time, a sky of 0 lx.
+    pub weather: Option<Weather>,
     /// The sensors; names are unique among sensors and cameras.
     pub sensors: Vec<Sensor>,
     /// The cameras; at least one where there is no sensor.

@@ -2,24 +2,28 @@
 
 use crate::cie::CieType;
 use crate::gradation::Gradation;
+use crate::panorama::Panorama;
 use crate::perez::Perez;
 use crate::point::{SkyPoint, dot};
 use crate::quadrature::over_the_sky;
+use std::sync::Arc;
 
 /// Relative luminances of a sky.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Distribution {
     form: Form,
     /// Towards the sun, which may be below the horizon.
     sun: [f64; 3],
 }
 
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 enum Form {
     Uniform,
     /// 1 + 2 sin(altitude).
     TraditionalOvercast,
     Gradation(Gradation),
+    /// In cd/m2.
+    Panorama(Arc<Panorama>),
 }
 
 impl Distribution {
@@ -42,6 +46,12 @@ impl Distribution {
         Self { form: Form::Gradation(perez.gradation()), sun: perez.sun().to_direction() }
     }
 
+    /// The sky of a picture; its relative luminances are those of the picture in cd/m2.
+    #[must_use]
+    pub fn panorama(panorama: Panorama) -> Self {
+        Self { form: Form::Panorama(Arc::new(panorama)), sun: [0.0, 0.0, 1.0] }
+    }
+
     /// The relative luminance in a direction, a unit vector; 0 below the horizon.
     #[must_use]
     pub fn relative(&self, direction: [f64; 3]) -> f64 {
@@ -53,11 +63,36 @@ impl Distribution {
             Form::Uniform => 1.0,
             Form::TraditionalOvercast => 1.0 + 2.0 * cos_zenith,
             Form::Gradation(gradation) => gradation.relative(cos_zenith, dot(direction, self.sun)),
+            Form::Panorama(panorama) => panorama.luminance_cd_m2(direction),
+        }
+    }
+
+    /// The gradation that it is of.
+    pub(crate) fn as_gradation(&self) -> Option<&Gradation> {
+        match &self.form {
+            Form::Gradation(gradation) => Some(gradation),
+            _ => None,
+        }
+    }
+
+    /// Towards the sun.
+    pub(crate) fn sun(&self) -> [f64; 3] {
+        self.sun
+    }
+
+    /// The panorama that it is of.
+    pub(crate) fn as_panorama(&self) -> Option<&Panorama> {
+        match &self.form {
+            Form::Panorama(panorama) => Some(panorama),
+            _ => None,
         }
     }
 
     /// The horizontal illuminance of relative luminances.
     pub(crate) fn horizontal(&self) -> f64 {
-        over_the_sky(self.sun, |direction| self.relative(direction) * direction[2])
+        match &self.form {
+            Form::Panorama(panorama) => panorama.horizontal_illuminance_lx(),
+            _ => over_the_sky(self.sun, |direction| self.relative(direction) * direction[2]),
+        }
     }
 }

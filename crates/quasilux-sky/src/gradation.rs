@@ -21,11 +21,19 @@ pub(crate) struct Gradation {
 impl Gradation {
     /// The relative luminance by the two angles, not below 0.
     pub(crate) fn relative(&self, cos_zenith: f64, cos_sun: f64) -> f64 {
-        let Self { a, b, c, d, e, offset, min_cos_zenith } = *self;
+        (self.below_zenith(cos_zenith) * self.around_sun(cos_sun)).max(0.0)
+    }
+
+    /// The gradation.
+    pub(crate) fn below_zenith(&self, cos_zenith: f64) -> f64 {
         // At the horizon the exponential of a negative number without bound is 0.
-        let gradation = 1.0 + a * exp(b / cos_zenith.max(min_cos_zenith));
+        1.0 + self.a * exp(self.b / cos_zenith.max(self.min_cos_zenith))
+    }
+
+    /// The indicatrix.
+    pub(crate) fn around_sun(&self, cos_sun: f64) -> f64 {
+        let Self { c, d, e, offset, .. } = *self;
         let cos_sun = cos_sun.clamp(-1.0, 1.0);
-        let indicatrix = 1.0 + c * (exp(d * libm::acos(cos_sun)) - offset) + e * cos_sun * cos_sun;
-        (gradation * indicatrix).max(0.0)
+        1.0 + c * (exp(d * libm::acos(cos_sun)) - offset) + e * cos_sun * cos_sun
     }
 }

@@ -84,6 +84,16 @@ fn is_leap_year(year: i32) -> bool {
     year % 4 == 0 && (year % 100 != 0 || year % 400 == 0)
 }
 
+impl std::fmt::Display for LocalTime {
+    /// `2026-03-20T12:00:00`; parts of a second are left out.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { year, month, day, seconds } = *self;
+        let whole = seconds as u32;
+        let (hour, minute, second) = (whole / 3600, whole / 60 % 60, whole % 60);
+        write!(f, "{year:04}-{month:02}-{day:02}T{hour:02}:{minute:02}:{second:02}")
+    }
+}
+
 impl std::str::FromStr for LocalTime {
     type Err = SkyError;
 

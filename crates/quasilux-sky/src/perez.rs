@@ -41,7 +41,7 @@ pub struct Perez {
 }
 
 /// The solar constant in W/m2, as Radiance has it.
-const SOLAR_CONSTANT_W_M2: f64 = 1367.0;
+pub(crate) const SOLAR_CONSTANT_W_M2: f64 = 1367.0;
 /// More than the atmosphere lets through at any time, in W/m2.
 const MAX_IRRADIANCE_W_M2: f64 = 2000.0;
 /// The clearness from which on a sky is of the category before the last.

@@ -2,6 +2,7 @@
 
 use crate::distribution::Distribution;
 use crate::error::SkyError;
+use crate::panorama::Panorama;
 use std::f64::consts::PI;
 
 /// What is known of how bright a sky is, without the sun.
@@ -17,10 +18,12 @@ pub enum SkyLevel {
         /// In cd/m2.
         cd_m2: f64,
     },
+    /// Relative luminances are in cd/m2, as those of a panorama.
+    Absolute,
 }
 
 /// A sky with luminances in cd/m2.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Sky {
     distribution: Distribution,
     /// The luminance of a relative luminance of 1.
@@ -38,7 +41,7 @@ impl Sky {
     /// For levels that are negative or above 10^9, and for the luminance of a zenith that is dark.
     pub fn new(distribution: Distribution, level: SkyLevel) -> Result<Self, SkyError> {
         let horizontal = distribution.horizontal();
-        if horizontal <= 0.0 {
+        if horizontal <= 0.0 && level != SkyLevel::Absolute {
             return Self::new(Distribution::uniform(), level);
         }
         let unit_cd_m2 = match level {
@@ -57,6 +60,7 @@ impl Sky {
                 }
                 cd_m2 / zenith
             }
+            SkyLevel::Absolute => 1.0,
         };
         let horizontal_illuminance_lx = unit_cd_m2 * horizontal;
         Ok(Self { distribution, unit_cd_m2, horizontal_illuminance_lx })
@@ -66,6 +70,22 @@ impl Sky {
     #[must_use]
     pub fn luminance_cd_m2(&self, direction: [f64; 3]) -> f64 {
         self.unit_cd_m2 * self.distribution.relative(direction)
+    }
+
+    /// The panorama that it is of, whose luminances may be scaled.
+    #[must_use]
+    pub fn panorama(&self) -> Option<&Panorama> {
+        self.distribution.as_panorama()
+    }
+
+    /// How its luminances are distributed.
+    pub(crate) fn distribution(&self) -> &Distribution {
+        &self.distribution
+    }
+
+    /// The luminance of a relative luminance of 1.
+    pub(crate) fn unit_cd_m2(&self) -> f64 {
+        self.unit_cd_m2
     }
 
     /// The luminance of the zenith.

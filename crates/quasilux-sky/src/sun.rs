@@ -32,6 +32,24 @@ impl Site {
         Ok(Self { latitude_deg, longitude_deg, time_zone_h })
     }
 
+    /// Degrees north of the equator.
+    #[must_use]
+    pub fn latitude_deg(&self) -> f64 {
+        self.latitude_deg
+    }
+
+    /// Degrees east of Greenwich.
+    #[must_use]
+    pub fn longitude_deg(&self) -> f64 {
+        self.longitude_deg
+    }
+
+    /// Hours that the clock is ahead of Greenwich.
+    #[must_use]
+    pub fn time_zone_h(&self) -> f64 {
+        self.time_zone_h
+    }
+
     /// The centre of the sun, as if there were no air: refraction lifts it by half a degree at the
     /// horizon and by less than 0.1 degrees from 10 degrees on.
     ///

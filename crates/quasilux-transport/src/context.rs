@@ -88,6 +88,10 @@ pub(crate) enum Stream {
     WitnessPaths(u64),
     /// Paths from one sensor point, numbered through all sensors.
     Paths(u64),
+    /// The sun as one sensor point sees it straight, numbered through all sensors.
+    SunDisks(u64),
+    /// Where meshes of directions lie.
+    Meshes,
     /// Eye subpaths from one sensor point, numbered through all sensors.
     EyeSubpaths(u64),
     /// Light subpaths for the same sensor point.
@@ -121,6 +125,8 @@ impl Stream {
             Self::WitnessPlaces => u64::MAX - 67,
             Self::PictureLights => u64::MAX - 68,
             Self::WitnessPaths(point) => (1 << 61) + point,
+            Self::SunDisks(point) => (3 << 60) + point,
+            Self::Meshes => u64::MAX - 69,
             Self::Paths(point) => 2 + point,
             Self::EyeSubpaths(point) => (1 << 60) + 2 * point,
             Self::LightSubpaths(point) => (1 << 60) + 2 * point + 1,
@@ -149,6 +155,8 @@ impl Stream {
                 | Self::WitnessPhotons
                 | Self::PictureLights
                 | Self::WitnessPaths(_)
+                | Self::SunDisks(_)
+                | Self::Meshes
                 | Self::EyeSubpaths(_)
                 | Self::LightSubpaths(_),
                 Sequence::Hammersley { .. },
@@ -254,8 +262,9 @@ mod tests {
     fn streams_have_numbers_of_their_own() {
         use Stream::{
             CausticPhotons, CellPhotons, ConnectedPhotons, ConnectionPlaces, EyeSubpaths,
-            FirstShotPilots, LightSubpaths, MapPilots, Paths, Photons, PictureLights, PlanPhotons,
-            Survey, WindowPilots, WitnessPaths, WitnessPhotons, WitnessPlaces,
+            FirstShotPilots, LightSubpaths, MapPilots, Meshes, Paths, Photons, PictureLights,
+            PlanPhotons, SunDisks, Survey, WindowPilots, WitnessPaths, WitnessPhotons,
+            WitnessPlaces,
         };
         let single =
             [Photons, PlanPhotons, MapPilots, FirstShotPilots, WindowPilots, CausticPhotons];
@@ -264,10 +273,18 @@ mod tests {
                 .map(move |pixel| Stream::Pixel { camera: camera as u32, pixel: pixel as u32 })
         });
         let numbered = numbers(1 << 40).flat_map(|number| {
-            [ConnectedPhotons, ConnectionPlaces, Paths, EyeSubpaths, LightSubpaths, WitnessPaths]
-                .map(|stream| stream(number))
+            [
+                ConnectedPhotons,
+                ConnectionPlaces,
+                Paths,
+                SunDisks,
+                EyeSubpaths,
+                LightSubpaths,
+                WitnessPaths,
+            ]
+            .map(|stream| stream(number))
         });
-        let others = [CellPhotons, WitnessPhotons, WitnessPlaces, PictureLights];
+        let others = [CellPhotons, WitnessPhotons, WitnessPlaces, PictureLights, Meshes];
         let streams = single.into_iter().chain(others).chain(numbered);
         let streams = streams.chain(numbers(62).map(Survey)).chain(pixels);
         let mut ids: Vec<u64> = streams.map(Stream::id).collect();

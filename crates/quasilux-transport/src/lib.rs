@@ -17,12 +17,14 @@
 //! - `importance`: where photons are split, ended and sent
 //! - `photon`: light tracing, illumination maps and caustics
 //! - `path`: path tracing from sensors and cameras
+//! - `annual`: the hours of a year
 //! - `estimator`: the estimators of sensor values, and the selection between them
 //! - `explain`: where the variance comes from
 //! - `run`: a run from start to result, in one piece or in parts
 //!
 //! Beside them: `codec`, states of a run as bytes; `context`, the scene made ready; `settings`.
 
+mod annual;
 mod bsdf;
 mod codec;
 mod context;
@@ -45,6 +47,7 @@ mod spectrum;
 mod stats;
 mod world;
 
+pub use annual::{PointOfYear, YearProgress, YearWork, simulate_year};
 pub use bsdf::Scattering;
 pub use codec::StateError;
 pub use explain::{Explanation, explain};

@@ -1,13 +1,16 @@
 //! What can be said on the command line.
 
+mod annual;
 mod bsdf;
 mod check;
 mod parts;
 mod photometry;
 mod points;
 mod refusal;
+mod sky;
 mod values;
 
+pub(crate) use annual::AnnualArguments;
 pub(crate) use bsdf::{BsdfArguments, Incidence};
 pub(crate) use check::CheckArguments;
 pub(crate) use parts::{
@@ -16,6 +19,7 @@ pub(crate) use parts::{
 pub(crate) use photometry::{DiagramName, PhotometryArguments};
 pub(crate) use points::PointsArguments;
 pub(crate) use refusal::{refusal, unknown_command};
+pub(crate) use sky::{Days, SkyArguments};
 
 use clap::builder::{PossibleValue, PossibleValuesParser};
 use clap::{Args, CommandFactory, Parser, Subcommand};
@@ -39,8 +43,12 @@ pub(crate) struct Arguments {
 pub(crate) enum Command {
     /// Simulate a project until every sensor point is known to the wanted tolerance
     Run(RunArguments),
+    /// Simulate the daylight of a year, hour by hour, of the weather file of a project
+    Annual(AnnualArguments),
     /// Say what was understood of a project and what is probably wrong with it, and draw its plan
     Check(CheckArguments),
+    /// Say what shines on a project from outside, draw its sky, and list where the sun is
+    Sky(SkyArguments),
     /// Run the cases of validation/ against their closed forms; exit code 1 when one fails
     Validate(ValidateArguments),
     /// Repeat one of the experiments of the paper, or one of our own; exit code 1 when what it

@@ -36,7 +36,7 @@ pub(crate) fn try_beside(place: &Path) -> io::Result<()> {
 /// Writes a file beside its place, piece by piece.
 pub(crate) fn write_beside(
     place: &Path,
-    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    write: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
 ) -> io::Result<Finished> {
     if is_device(place) {
         let mut device = BufWriter::new(device::open(place)?);
@@ -54,7 +54,10 @@ pub(crate) fn write_beside(
     written.map(|()| Finished(Some(Beside { beside, place })))
 }
 
-fn write_to(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
+fn write_to(
+    path: &Path,
+    write: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
+) -> io::Result<()> {
     let mut file = BufWriter::new(File::create(path)?);
     write(&mut file)?;
     let file = file.into_inner().map_err(io::IntoInnerError::into_error)?;

@@ -24,6 +24,7 @@ mod interrupt;
 mod machine;
 mod meter;
 mod names;
+mod npy;
 mod plan;
 mod print;
 mod project;
@@ -48,7 +49,9 @@ pub fn command_line(words: impl IntoIterator<Item = OsString>) -> Exit {
     let outcome = match arguments.command {
         Command::Run(arguments) => commands::run(&arguments),
         Command::Validate(arguments) => commands::validate(&arguments),
+        Command::Annual(arguments) => commands::annual(&arguments),
         Command::Check(arguments) => commands::check(&arguments),
+        Command::Sky(arguments) => commands::sky(&arguments),
         Command::Experiment(arguments) => commands::experiment(&arguments),
         Command::Points(arguments) => commands::points(&arguments),
         Command::Photometry(arguments) => commands::photometry(&arguments),

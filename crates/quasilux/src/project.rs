@@ -1,6 +1,6 @@
 //! A loaded project, and the settings that follow from it and the command line.
 
-use crate::arguments::SimulationArguments;
+use crate::arguments::{AnnualArguments, SimulationArguments};
 use crate::digest::SceneIdentity;
 use crate::exit::CliError;
 use crate::forecast;
@@ -8,7 +8,7 @@ use crate::heartbeat::Heartbeat;
 use crate::names::{self, take_from_project as take};
 use crate::source::{Identified, Source};
 use quasilux_sampling::{Randomization, Sequence};
-use quasilux_scene::{LoadError, Loaded, SimulationSection, Spanned};
+use quasilux_scene::{Environment, LoadError, Loaded, SimulationSection, SkyFacts, Spanned};
 use quasilux_transport::{EstimatorKind, Reconstruction, Settings, Switch, ToleranceOn};
 use std::path::Path;
 
@@ -89,11 +89,13 @@ impl Project {
 /// the scene.
 ///
 /// # Errors
-/// When a name is unknown, or the settings make no sense together or for the scene.
+/// When a name is unknown, the settings make no sense together or for the scene, or nothing shines
+/// in it.
 pub(crate) fn settings(
     project: &Project,
     arguments: &SimulationArguments,
 ) -> Result<Settings, CliError> {
+    expect_light(project)?;
     let section = &project.loaded.simulation;
     let mut settings = Settings::default();
     names_in_section(&mut settings, section, arguments)?;
@@ -104,6 +106,46 @@ pub(crate) fn settings(
     checked.map_err(|error| CliError::in_file(&project.name, None, error))?;
     forecast::expect_memory(&project.loaded, &settings)?;
     Ok(settings)
+}
+
+/// The settings of a year: the command line before the project file before defaults. A tolerance
+/// of the project file is one of points, not of hours.
+///
+/// # Errors
+/// When a name is unknown, or the settings make no sense together.
+pub(crate) fn annual_settings(
+    project: &Project,
+    arguments: &AnnualArguments,
+) -> Result<Settings, CliError> {
+    let section = &project.loaded.simulation;
+    let mut settings = Settings::default();
+    names_in_section(&mut settings, section, &SimulationArguments::default())?;
+    values_in_section(&mut settings, section);
+    settings.estimator = EstimatorKind::Path;
+    settings.rel_tol = arguments.rel_tol;
+    settings.confidence = arguments.confidence.unwrap_or(settings.confidence);
+    settings.seed = arguments.seed.unwrap_or(settings.seed);
+    settings.max_samples = arguments.samples;
+    let checked = quasilux_transport::check(&project.loaded.scene, &settings);
+    checked.map_err(|error| CliError::in_file(&project.name, None, error))?;
+    Ok(settings)
+}
+
+/// Refuses projects of a whole year, and those in which nothing shines.
+fn expect_light(project: &Project) -> Result<(), CliError> {
+    let Loaded { scene, sky, .. } = &project.loaded;
+    let refuse = |message: &str| Err(CliError::in_file(&project.name, None, message));
+    if sky.as_ref().is_some_and(SkyFacts::lacks_time) {
+        return refuse(
+            "the sky is that of a weather file, and no time says of which interval; expected \
+             [sun] with time, such as 2026-03-20T12:30:00 (`quasilux annual` computes the year)",
+        );
+    }
+    let is_dark_outside = scene.environment.as_ref().is_some_and(Environment::is_dark);
+    if is_dark_outside && scene.flux_lm() <= 0.0 {
+        return refuse("nothing shines: the sky is dark, and no lamp gives any flux");
+    }
+    Ok(())
 }
 
 /// Takes over what the project file gives by name.

@@ -103,7 +103,7 @@ pub(crate) fn write_atomic(path: &Path, bytes: &[u8]) -> Result<(), CliError> {
 /// Writes a file piece by piece; it appears when it is whole, and is on disk then.
 pub(crate) fn stream_atomic(
     path: &Path,
-    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    write: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
 ) -> Result<(), CliError> {
     atomic_file::write_beside(path, write)
         .and_then(atomic_file::Finished::publish)

@@ -32,7 +32,13 @@ const MAY_USE: [(&str, &[&str]); 16] = [
     ("quasilux-drawing", &[]),
     (
         "quasilux-report",
-        &["quasilux-transport", "quasilux-inspection", "quasilux-scene", "quasilux-drawing"],
+        &[
+            "quasilux-transport",
+            "quasilux-inspection",
+            "quasilux-scene",
+            "quasilux-sky",
+            "quasilux-drawing",
+        ],
     ),
     (
         "quasilux-experiments",
@@ -58,6 +64,7 @@ const MAY_USE: [(&str, &[&str]); 16] = [
             "quasilux-photometry",
             "quasilux-bsdf",
             "quasilux-scene",
+            "quasilux-sky",
             "quasilux-inspection",
             "quasilux-transport",
             "quasilux-drawing",
@@ -75,6 +82,7 @@ const MAY_USE: [(&str, &[&str]); 16] = [
             "quasilux-photometry",
             "quasilux-bsdf",
             "quasilux-scene",
+            "quasilux-sky",
             "quasilux-inspection",
             "quasilux-transport",
             "quasilux-drawing",

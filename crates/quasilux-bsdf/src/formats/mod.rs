@@ -2,6 +2,7 @@
 //!
 //! - [`astm`], ASTM E1392
 //! - [`ddr`], Integra DDR and DDT (`.ddr`, `.ddt`)
+//! - [`igsdb`], glazing products of the IGSDB (`.json`)
 //! - [`merl`], the MERL database (`.binary`)
 //! - [`window_xml`], LBNL WINDOW (`.xml`)
 //!
@@ -11,5 +12,6 @@
 
 pub mod astm;
 pub mod ddr;
+pub mod igsdb;
 pub mod merl;
 pub mod window_xml;

@@ -4,6 +4,7 @@
 //! (`fuzz/`) share this module. Memory is counted for each thread by itself
 //! (`allocation-counter`), so that any number of files can be read side by side.
 
+pub(crate) mod glazing;
 mod surface;
 
 use quasilux_bsdf::{max_bsdf_memory_bytes, read_bsdf_named};

@@ -7,6 +7,7 @@ mod corpus;
 mod ddr;
 mod format_pages;
 mod from_function;
+mod glazing;
 mod merl;
 mod radiance;
 mod sampling;

@@ -81,6 +81,11 @@ impl Layout {
         layout
     }
 
+    /// The layout around a picture of this size with axes.
+    pub(crate) fn with_axes_around(plot_size: [usize; 2], summary: &[String]) -> Self {
+        Self::around(plot_size, BELOW_PLOT, summary)
+    }
+
     fn around(plot_size: [usize; 2], below_plot: usize, summary: &[String]) -> Self {
         let content_width = plot_size[0].max(CONTENT_LEAST);
         let summary_lines = wrapped(summary, content_width as f64);

@@ -27,8 +27,10 @@ mod plan;
 mod plot;
 mod scale;
 mod series;
+mod sky;
 mod tone_map;
 mod window;
+mod year;
 
 pub use caption::Caption;
 pub use cells::{Cell, GridPicture, Surroundings};
@@ -41,4 +43,6 @@ pub use plan::{
     PlanPoints, Surfaces, plan,
 };
 pub use series::{LabelledImage, series};
+pub use sky::{SkyPicture, sky};
 pub use tone_map::tone_mapped_png;
+pub use year::{YearPicture, year};

@@ -27,7 +27,7 @@ const MARK_CLEAR_PX: DVec2 = DVec2::new(9.0, 9.0);
 /// Width of contour lines in pixels.
 const LINE_PX: f64 = 1.7;
 /// Colour of cells without a value.
-const NO_VALUE: Colour = [200, 200, 200];
+pub(super) const NO_VALUE: Colour = [200, 200, 200];
 
 /// Draws a grid.
 pub(crate) fn draw(

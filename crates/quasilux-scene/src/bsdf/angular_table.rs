@@ -35,6 +35,12 @@ impl AngularTable {
         (spans && rises && holds).then_some(Self { nodes })
     }
 
+    /// The table with nodes that are known to be those of a table.
+    pub(super) fn from_steps(nodes: Vec<AngularNode>) -> Self {
+        debug_assert!(Self::new(nodes.clone()).is_some());
+        Self { nodes }
+    }
+
     /// The nodes, by rising angle.
     #[must_use]
     pub fn nodes(&self) -> &[AngularNode] {

@@ -23,7 +23,7 @@ pub use translucent::Translucent;
 use crate::Rgb;
 
 /// How a surface scatters light. Both sides scatter alike, but for the inside of a
-/// [`Bsdf::Dielectric`] and those of a [`Bsdf::Measured`].
+/// [`Bsdf::Dielectric`], those of a [`Bsdf::Measured`] and of a [`Pane::Measured`].
 #[derive(Clone, Debug, PartialEq)]
 pub enum Bsdf {
     /// Lambertian reflection.

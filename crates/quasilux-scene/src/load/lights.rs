@@ -58,7 +58,7 @@ pub(super) fn place(
         });
     }
     let is_dark = |lights: &[Light]| !lights.iter().any(|light| light.flux_lm() > 0.0);
-    if project.environment.is_none() && is_dark(&lights) {
+    if project.outside.is_none() && is_dark(&lights) {
         let first_luminaire = project.luminaires.iter().map(|entry| entry.place);
         let first_light = project.lights.iter().map(LightEntry::place);
         let place =

@@ -1,5 +1,6 @@
 //! The material of each name: what the project file says, then what geometry files say.
 
+use super::glazing::GlazingFiles;
 use super::measured::MeasuredFiles;
 use crate::bsdf::Diffuse;
 use crate::geometry::{DEFAULT_MATERIAL, FileMaterial, Geometry};
@@ -37,6 +38,7 @@ pub(super) fn resolve(
     let mut triangles = vec![0_u64; geometry.materials.len()];
     geometry.mesh.material_of.iter().for_each(|&material| triangles[material as usize] += 1);
     let mut measured = MeasuredFiles::new(project, files);
+    let mut glazings = GlazingFiles::new(project, files);
     let mut materials = Vec::new();
     for ((number, material), count) in (0..).zip(&geometry.materials).zip(triangles) {
         let mut bsdf_of =
@@ -47,6 +49,7 @@ pub(super) fn resolve(
                     measured.must_lie_across(up.as_ref(), &geometry.mesh, number)?;
                     Ok(Bsdf::Measured(sheet))
                 }
+                Scattering::Glazing(layers) => Ok(Bsdf::Pane(glazings.pane(layers, warnings)?)),
             };
         let bsdf = match (entry_of(&material.name), material.reflectance) {
             (Some(entry), _) => bsdf_of(entry, warnings)?,

@@ -1,15 +1,17 @@
 //! From the bytes of a project to a checked [`Scene`].
 
+mod glazing;
 mod lights;
 mod materials;
 mod measured;
+mod outside;
 mod photometry;
 mod places;
 
 pub use places::Places;
 
 use crate::project::{Project, SimulationSection};
-use crate::{Files, LoadError, Scene, Warning, checks, enclosures, geometry};
+use crate::{Files, LoadError, Scene, SkyFacts, Warning, checks, enclosures, geometry};
 
 /// A loaded project.
 #[derive(Clone, Debug)]
@@ -21,6 +23,8 @@ pub struct Loaded {
     /// Factor in (0, 1] by which the lights of the scene are dimmer than when they were new; they
     /// have it in them.
     pub maintenance_factor: f64,
+    /// What the sky was made of; `None` where nothing is outside.
+    pub sky: Option<SkyFacts>,
     /// What the project file asks of the engine.
     pub simulation: SimulationSection,
     /// Oddities that were lived with.
@@ -45,11 +49,13 @@ pub fn load(
     let sensors = project.sensors.iter().map(|entry| entry.sensor.clone()).collect();
     let cameras = project.cameras.iter().map(|entry| entry.camera.clone()).collect();
     let places = Places::new(&project, &geometry);
-    let environment = project.environment.clone();
-    let scene = Scene { mesh: geometry.mesh, materials, lights, environment, sensors, cameras };
+    let outside::Outside { environment, weather, facts } =
+        outside::resolve(&project, files, &mut warnings)?;
+    let mesh = geometry.mesh;
+    let scene = Scene { mesh, materials, lights, environment, weather, sensors, cameras };
     enclosures::light_must_end(&scene, &project)?;
     enclosures::glass_must_be_closed(&scene, &project, &mut warnings);
     checks::places_in_walls(&scene, &project, &mut warnings)?;
     let Project { simulation, maintenance_factor, .. } = project;
-    Ok(Loaded { scene, places, maintenance_factor, simulation, warnings })
+    Ok(Loaded { scene, places, maintenance_factor, sky: facts, simulation, warnings })
 }

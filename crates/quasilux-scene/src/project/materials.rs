@@ -1,18 +1,19 @@
 //! `[materials.NAME]`: what the project file says about the materials of the geometry.
 
 use super::coefficients::{eta, index, reflectance, shares};
-use super::document::{Entry, Section};
+use super::document::{Entry, Section, Value};
 use super::pane;
 use crate::bsdf::{Conductor, Dielectric, Diffuse, Mirror, Plastic, Translucent};
 use crate::{Bsdf, LoadError, Spanned};
 use glam::DVec3;
 
 /// What each kind may hold beside `kind`.
-const KINDS: [(&str, &[&str]); 7] = [
+const KINDS: [(&str, &[&str]); 8] = [
     ("diffuse", &["reflectance", "transmittance"]),
     ("mirror", &["reflectance"]),
     ("dielectric", &["eta"]),
     ("pane", &["eta", "transmittance", "reflectance"]),
+    ("glazing", &["layers"]),
     ("conductor", &["reflectance", "roughness", "alpha"]),
     ("plastic", &["reflectance", "eta", "roughness", "alpha"]),
     ("bsdf", &["file", "up"]),
@@ -24,8 +25,13 @@ const PLANNED_KEYS: [&str; 2] = ["specular", "texture"];
 const MIN_ROUGHNESS: f64 = 0.02;
 const MIN_ALPHA: f64 = 0.0004;
 
+/// More panes than any glazing has.
+const MAX_LAYERS: usize = 10;
+
 /// What `file` is.
 const FILE_NAME: &str = "the name of a file with a measured BSDF";
+const LAYERS: &str = "files of the IGSDB from the front on, [\"outer.json\", { file = \
+                      \"inner.json\", flipped = true }], at most 10";
 const UP: &str = "a direction [x, y, z] with a length";
 
 /// One material.
@@ -46,6 +52,16 @@ pub(crate) enum Scattering {
         /// Where the `y` axis of the tables points.
         up: Option<Spanned<DVec3>>,
     },
+    /// By panes of glass, the one at the front first.
+    Glazing(Vec<LayerEntry>),
+}
+
+/// One pane of a glazing.
+#[derive(Clone, Debug)]
+pub(crate) struct LayerEntry {
+    pub(crate) file: Spanned<String>,
+    /// Whether its back is turned to the front of the glazing.
+    pub(crate) is_flipped: bool,
 }
 
 pub(super) fn read(root: &Section<'_>) -> Result<Vec<MaterialEntry>, LoadError> {
@@ -67,7 +83,11 @@ fn scattering(section: &Section<'_>) -> Result<Scattering, LoadError> {
     let kind = section.get("kind").map(|kind| kind.name(&names, &PLANNED_KINDS));
     let kind = kind.transpose()?.unwrap_or("diffuse");
     refuse_keys_of_other_kinds(section, kind)?;
-    if kind == "bsdf" { measured(section) } else { Ok(Scattering::Described(bsdf(section, kind)?)) }
+    match kind {
+        "bsdf" => measured(section),
+        "glazing" => glazing(section),
+        _ => Ok(Scattering::Described(bsdf(section, kind)?)),
+    }
 }
 
 fn bsdf(section: &Section<'_>, kind: &str) -> Result<Bsdf, LoadError> {
@@ -96,6 +116,28 @@ fn measured(section: &Section<'_>) -> Result<Scattering, LoadError> {
         up => Ok(value.spanned(up)),
     });
     Ok(Scattering::Measured { file, up: up.transpose()? })
+}
+
+fn glazing(section: &Section<'_>) -> Result<Scattering, LoadError> {
+    let value = section.require("layers", LAYERS)?;
+    let layers = value.array(LAYERS)?;
+    if layers.is_empty() || layers.len() > MAX_LAYERS {
+        return Err(value.unexpected(LAYERS));
+    }
+    Ok(Scattering::Glazing(layers.iter().map(layer).collect::<Result<_, _>>()?))
+}
+
+fn layer(value: &Value<'_>) -> Result<LayerEntry, LoadError> {
+    if value.is_string() {
+        let file = value.spanned(value.string(LAYERS)?.to_owned());
+        return Ok(LayerEntry { file, is_flipped: false });
+    }
+    let section = value.section("of a layer".to_owned()).map_err(|_| value.unexpected(LAYERS))?;
+    section.only(&["file", "flipped"], &[])?;
+    let file = section.require("file", LAYERS)?;
+    let file = file.spanned(file.string(LAYERS)?.to_owned());
+    let is_flipped = section.get("flipped").map_or(Ok(false), |flipped| flipped.boolean())?;
+    Ok(LayerEntry { file, is_flipped })
 }
 
 fn refuse_keys_of_other_kinds(section: &Section<'_>, kind: &str) -> Result<(), LoadError> {

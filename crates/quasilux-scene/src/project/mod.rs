@@ -26,10 +26,10 @@ pub use units::LengthUnit;
 pub(crate) use cameras::CameraEntry;
 pub(crate) use lights::{Emission, LightEntry};
 pub(crate) use luminaires::LuminaireEntry;
-pub(crate) use materials::{MaterialEntry, Scattering};
+pub(crate) use materials::{LayerEntry, MaterialEntry, Scattering};
+pub(crate) use outside::{OutsideEntry, OutsideLight, PanoramaEntry, WeatherEntry};
 pub(crate) use sensors::SensorEntry;
 
-use crate::environment::Environment;
 use crate::{LoadError, Spanned};
 use document::{Section, Source};
 use names::Names;
@@ -61,7 +61,7 @@ pub(crate) struct Project {
     pub(crate) luminaires: Vec<LuminaireEntry>,
     pub(crate) lights: Vec<LightEntry>,
     /// What shines from outside.
-    pub(crate) environment: Option<Environment>,
+    pub(crate) outside: Option<OutsideEntry>,
     pub(crate) sensors: Vec<SensorEntry>,
     /// At least one where there is no sensor.
     pub(crate) cameras: Vec<CameraEntry>,
@@ -72,12 +72,13 @@ pub(crate) struct Project {
 /// 0.1 kB once it is read, whatever it takes in the file.
 const MAX_PARTS: usize = 1 << 23;
 
-const SECTIONS: [&str; 12] = [
+const SECTIONS: [&str; 13] = [
     "scene",
     "materials",
     "luminaires",
     "lights",
     "site",
+    "weather",
     "sky",
     "sun",
     "ground",
@@ -122,8 +123,8 @@ impl Project {
         let root = source.root(table.get_ref());
         let luminaires = luminaires::read(&root)?;
         let lights = lights::read(&root)?;
-        let environment = outside::read(&root)?;
-        if luminaires.is_empty() && lights.is_empty() && environment.is_none() {
+        let outside = outside::read(&root)?;
+        if luminaires.is_empty() && lights.is_empty() && outside.is_none() {
             let message = "no lights; expected at least one [[luminaires]] or [[lights]], or [sky]";
             return Err(root.error(message));
         }
@@ -146,7 +147,7 @@ impl Project {
             materials,
             luminaires,
             lights,
-            environment,
+            outside,
             sensors,
             cameras,
             simulation: simulation::read(file, &root)?,

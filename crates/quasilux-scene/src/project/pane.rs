@@ -27,8 +27,7 @@ fn measured(section: &Section<'_>, value: Value<'_>) -> Result<Pane, LoadError> 
     }
     let transmittance = table(value)?;
     let Some(value) = section.get("reflectance") else {
-        let reflectance = AngularTable::constant(0.0);
-        return Ok(Pane::Measured { transmittance, reflectance });
+        return Ok(Pane::measured(transmittance, AngularTable::constant(0.0)));
     };
     let reflectance = table(value)?;
     // The sum is straight between the nodes of both tables.
@@ -41,7 +40,7 @@ fn measured(section: &Section<'_>, value: Value<'_>) -> Result<Pane, LoadError> 
             sum(theta_rad),
             theta_rad.to_degrees()
         ))),
-        None => Ok(Pane::Measured { transmittance, reflectance }),
+        None => Ok(Pane::measured(transmittance, reflectance)),
     }
 }
 

@@ -53,19 +53,24 @@ fn every_kind_is_read() {
 fn measured_panes_are_straight_between_their_lines() {
     let tables = "kind = \"pane\"\ntransmittance = [[0, 0.88], [40, 0.86], [90, 0.0]]\n\
                   reflectance = [[0, 0.08], [40, 0.12], [90, 1.0]]";
-    let Ok(Bsdf::Pane(Pane::Measured { transmittance, reflectance })) = material(tables) else {
+    let Ok(Bsdf::Pane(pane)) = material(tables) else {
         panic!("a measured pane is one");
     };
+    let Pane::Measured { transmittance, front_reflectance: reflectance, back_reflectance } = pane
+    else {
+        panic!("a measured pane is one");
+    };
+    assert_eq!(reflectance, back_reflectance);
     for (degrees, t, r) in [(0.0_f64, 0.88, 0.08), (20.0, 0.87, 0.1), (90.0, 0.0, 1.0)] {
         let cos = libm::cos(degrees.to_radians());
         assert!((transmittance.at(cos) - t).abs() < 1e-12, "{degrees}");
         assert!((reflectance.at(cos) - r).abs() < 1e-12, "{degrees}");
     }
     let alone = "kind = \"pane\"\ntransmittance = [[0, 0.88], [90, 0]]";
-    let Ok(Bsdf::Pane(Pane::Measured { reflectance, .. })) = material(alone) else {
+    let Ok(Bsdf::Pane(Pane::Measured { back_reflectance, .. })) = material(alone) else {
         panic!("a measured pane is one");
     };
-    assert_eq!(reflectance.at(0.3), 0.0);
+    assert_eq!(back_reflectance.at(0.3), 0.0);
 }
 
 #[test]

@@ -69,7 +69,7 @@ fn what_makes_no_sky_is_refused_with_its_line() {
         ("[sun]\naltitude_deg = 30\nazimuth_deg = 0\n", 4, "goes with [sky], which is missing"),
         ("[sky]\ntype = 1\n", 4, "lacks \"model\"; expected \"cie\""),
         ("[sky]\nmodel = \"cei\"\n", 5, "did you mean \"cie\"?"),
-        ("[sky]\nmodel = \"weather\"\n", 5, "\"weather\" is not built yet"),
+        ("[sky]\nmodel = \"panorama\"\n", 4, "lacks \"file\"; expected the name of a panorama"),
         ("[sky]\nmodel = \"cie\"\ntype = 17\n", 6, "is 17; expected 1 to 16"),
         (CLEAR, 6, "depend on the sun; expected [sun]"),
         ("[sky]\nmodel = \"uniform\"\n", 4, "lacks one of horizontal_illuminance_lx"),

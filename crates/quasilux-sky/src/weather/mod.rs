@@ -5,12 +5,16 @@
 //! [`WeatherHour::seconds`] is its middle, where the sun belongs. WEA gives the middle itself.
 
 mod epw;
+mod interval;
+mod light;
 mod row;
 mod wea;
 
 use crate::sun::Site;
 use quasilux_text::{ParseError, Position, TextWarning, Warning, Warnings, decode, lines};
 use row::Row;
+
+pub use light::WeatherSky;
 
 /// A weather file.
 #[derive(Clone, Debug, PartialEq)]

@@ -28,7 +28,7 @@ fn all_kinds() -> Vec<(String, Distribution)> {
 fn illuminances_are_the_integrals_of_luminances() {
     for (name, distribution) in all_kinds() {
         let level = SkyLevel::HorizontalIlluminance { lx: 1000.0 };
-        let sky = Sky::new(distribution, level).unwrap();
+        let sky = Sky::new(distribution.clone(), level).unwrap();
         assert!((sky.horizontal_illuminance_lx() - 1000.0).abs() < 1e-9);
         let found = projected(|direction| sky.luminance_cd_m2(direction));
         assert!((found / 1000.0 - 1.0).abs() < 3e-5, "{name}: {found}");

@@ -2,8 +2,10 @@
 
 mod cie;
 mod levels;
+mod panorama;
 mod perez;
 mod sun;
+mod tabulated;
 mod weather;
 
 use quasilux_sky::SkyPoint;

@@ -256,3 +256,41 @@ fn damaged_files_never_panic() {
     }
     assert!(read > 1000 && refused > 1000, "{read} {refused}");
 }
+
+/// The three units of the same hour give the same sky and the same sun.
+#[test]
+fn units_of_one_hour_give_one_sky() {
+    let noon = hour_of(WEA.as_bytes());
+    assert!(Weather::parse(WEA.as_bytes()).unwrap().weather.sky_of(&noon).unwrap().is_none());
+    let sky_of = |text: String| {
+        let weather = Weather::parse(text.as_bytes()).unwrap().weather;
+        weather.sky_of(&weather.hours[1]).unwrap().unwrap()
+    };
+    let known = sky_of(WEA.to_owned());
+    let sine = libm::sin(known.sun.altitude_deg.to_radians());
+    let with = |units: &str, direct: f64, diffuse: f64| {
+        let text = WEA.replace("units 1", units);
+        sky_of(text.replace("712.5 95", &format!("{direct:.9} {diffuse:.9}")))
+    };
+    let (direct_lx, diffuse_lx) =
+        (known.sun_normal_illuminance_lx, known.sky.horizontal_illuminance_lx());
+    assert!((60.0..110.0).contains(&(direct_lx / 712.5)), "{direct_lx}");
+    assert!((90.0..150.0).contains(&(diffuse_lx / 95.0)), "{diffuse_lx}");
+    for other in [with("units 2", 712.5 * sine, 95.0), with("units 3", direct_lx, diffuse_lx)] {
+        assert_eq!(other.sun, known.sun);
+        assert!((other.sun_normal_illuminance_lx / direct_lx - 1.0).abs() < 1e-6);
+        let luminance = |it: &quasilux_sky::WeatherSky| it.sky.luminance_cd_m2([0.6, 0.0, 0.8]);
+        assert!((luminance(&other) / luminance(&known) - 1.0).abs() < 1e-6);
+    }
+}
+
+/// Around sunrise an hour may have light of a sun that its middle has below the horizon.
+#[test]
+fn the_sun_shines_above_the_horizon_alone() {
+    let early = line("2026,6,21,4,0", "7.0", ["30", "12"]);
+    let weather = Weather::parse(&epw(&[early])).unwrap().weather;
+    let found = weather.sky_of(&weather.hours[0]).unwrap().unwrap();
+    assert!(found.sun.altitude_deg < 0.0, "{:?}", found.sun);
+    assert_eq!(found.sun_normal_illuminance_lx, 0.0);
+    assert!(found.sky.horizontal_illuminance_lx() > 1000.0);
+}

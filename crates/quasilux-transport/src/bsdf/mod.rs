@@ -183,12 +183,13 @@ impl<S: Spectrum> Bsdf<S> {
         }
     }
 
-    /// What it mirrors of light that comes at this cosine, where all of the rest is absorbed or
-    /// goes straight on, so that images can be followed; `None` for other surfaces.
-    pub(crate) fn image_reflectance(&self, cos: f64) -> Option<S> {
+    /// What it mirrors of light that comes at this cosine on its front, or on its back, where all
+    /// of the rest is absorbed or goes straight on, so that images can be followed; `None` for
+    /// other surfaces.
+    pub(crate) fn image_reflectance(&self, cos: f64, front: bool) -> Option<S> {
         match self {
             Self::Mirror(mirror) => Some(mirror.reflectance),
-            Self::Pane(pane) => Some(pane.pane_reflectance(cos)),
+            Self::Pane(pane) => Some(pane.pane_reflectance(cos, front)),
             Self::Diffuse(_)
             | Self::Translucent(_)
             | Self::Dielectric(_)
@@ -220,7 +221,7 @@ impl<S: Spectrum> Bsdf<S> {
             Self::Mirror(mirror) => mirror.reflectance,
             Self::Translucent(translucent) => translucent.albedo(),
             Self::Dielectric(_) => S::white(),
-            Self::Pane(pane) => pane.albedo(wo),
+            Self::Pane(pane) => pane.albedo(wo, front),
             Self::Conductor(conductor) => conductor.albedo(wo),
             Self::Plastic(plastic) => plastic.albedo(wo),
             Self::Measured(measured) => measured.albedo(wo, front, mode),
@@ -272,7 +273,7 @@ impl<S: Spectrum> Bsdf<S> {
             Self::Mirror(mirror) => Some(mirror.sample(wo)),
             Self::Translucent(translucent) => Some(translucent.sample(sampler)),
             Self::Dielectric(dielectric) => Some(dielectric.sample(wo, front, mode, sampler)),
-            Self::Pane(pane) => pane.sample(wo, sampler),
+            Self::Pane(pane) => pane.sample(wo, front, sampler),
             Self::Conductor(conductor) => conductor.sample(wo, sampler),
             Self::Plastic(plastic) => plastic.sample(wo, sampler),
             Self::Measured(measured) => measured.sample(wo, front, mode, sampler),

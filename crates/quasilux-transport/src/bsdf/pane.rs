@@ -4,8 +4,8 @@
 //! A clear pane has two boundaries of reflectance r each, and light goes to and fro between them.
 //! For each polarisation the series gives `R = 2 r / (1 + r)` reflected and `T = (1 - r) / (1 + r)`
 //! let through (Stokes 1862, without absorption); unpolarised light has the mean of both. A stated
-//! transmittance scales T at all angles; a measured pane has tables by angle instead. Both sides
-//! are alike, and as the index is the same before and behind, radiance is not scaled.
+//! transmittance scales T at all angles; a measured pane has tables by angle instead, whose sides
+//! may reflect differently. As the index is the same before and behind, radiance is not scaled.
 
 use super::BsdfSample;
 use super::fresnel::Boundary;
@@ -20,7 +20,11 @@ pub(crate) enum Pane<S> {
     /// Fresnel's boundaries, with T scaled by `tint`.
     Glass { eta: f64, tint: S },
     /// Tables by angle.
-    Measured { transmittance: AngularTable, reflectance: AngularTable },
+    Measured {
+        transmittance: AngularTable,
+        front_reflectance: AngularTable,
+        back_reflectance: AngularTable,
+    },
 }
 
 impl<S: Spectrum> Pane<S> {
@@ -32,10 +36,13 @@ impl<S: Spectrum> Pane<S> {
                     S::from_rgb(*transmittance) * (1.0 / scene::Pane::clear_transmittance(*eta));
                 Self::Glass { eta: *eta, tint }
             }
-            scene::Pane::Measured { transmittance, reflectance } => Self::Measured {
-                transmittance: transmittance.clone(),
-                reflectance: reflectance.clone(),
-            },
+            scene::Pane::Measured { transmittance, front_reflectance, back_reflectance } => {
+                Self::Measured {
+                    transmittance: transmittance.clone(),
+                    front_reflectance: front_reflectance.clone(),
+                    back_reflectance: back_reflectance.clone(),
+                }
+            }
         }
     }
 
@@ -47,21 +54,28 @@ impl<S: Spectrum> Pane<S> {
         }
     }
 
-    /// The share that is mirrored.
-    pub(crate) fn pane_reflectance(&self, cos: f64) -> S {
+    /// The share that is mirrored on the front, or on the back.
+    pub(crate) fn pane_reflectance(&self, cos: f64, front: bool) -> S {
         S::white()
             * match self {
                 Self::Glass { eta, .. } => clear_reflectance(cos, *eta),
-                Self::Measured { reflectance, .. } => reflectance.at(cos),
+                Self::Measured { front_reflectance, .. } if front => front_reflectance.at(cos),
+                Self::Measured { back_reflectance, .. } => back_reflectance.at(cos),
             }
     }
 
-    pub(super) fn albedo(&self, wo: DVec3) -> S {
-        self.pane_reflectance(wo.z) + self.pane_transmittance(wo.z)
+    pub(super) fn albedo(&self, wo: DVec3, front: bool) -> S {
+        self.pane_reflectance(wo.z, front) + self.pane_transmittance(wo.z)
     }
 
-    pub(super) fn sample(&self, wo: DVec3, sampler: &mut Sampler<'_>) -> Option<BsdfSample<S>> {
-        let (mirrored, straight) = (self.pane_reflectance(wo.z), self.pane_transmittance(wo.z));
+    pub(super) fn sample(
+        &self,
+        wo: DVec3,
+        front: bool,
+        sampler: &mut Sampler<'_>,
+    ) -> Option<BsdfSample<S>> {
+        let mirrored = self.pane_reflectance(wo.z, front);
+        let straight = self.pane_transmittance(wo.z);
         let sum = mirrored.luminance() + straight.luminance();
         if sum <= 0.0 {
             return None;
@@ -113,7 +127,7 @@ mod tests {
                 let cos = libm::cos(theta_rad);
                 let through = pane.pane_transmittance(cos);
                 assert!((through - series(theta_rad, eta)).abs() < 1e-9, "{eta} {theta_rad}");
-                assert!((through + pane.pane_reflectance(cos) - 1.0).abs() < 1e-14);
+                assert!((through + pane.pane_reflectance(cos, true) - 1.0).abs() < 1e-14);
             }
             // Stokes at normal incidence.
             let normal = scene::Pane::clear_transmittance(eta);
@@ -133,7 +147,10 @@ mod tests {
                 let found = tinted.pane_transmittance(cos).channel(channel);
                 assert!((found - transmittance.0[channel] * scale).abs() < 1e-15);
             }
-            assert_eq!(tinted.pane_reflectance(cos), Rgb::grey(clear.pane_reflectance(cos)));
+            for front in [true, false] {
+                let mirrored = Rgb::grey(clear.pane_reflectance(cos, front));
+                assert_eq!(tinted.pane_reflectance(cos, front), mirrored);
+            }
         }
     }
 
@@ -144,20 +161,27 @@ mod tests {
             let node = |(theta_rad, share)| AngularNode { theta_rad, share };
             AngularTable::new(nodes.map(node).collect()).unwrap()
         };
-        let (transmittance, reflectance) = (table([0.8, 0.0]), table([0.0, 0.5]));
-        let pane = Pane::<f64>::new(&scene::Pane::Measured { transmittance, reflectance });
+        let pane = Pane::<f64>::new(&scene::Pane::Measured {
+            transmittance: table([0.8, 0.0]),
+            front_reflectance: table([0.0, 0.5]),
+            back_reflectance: table([0.2, 0.7]),
+        });
         let cos = libm::cos(0.5 * FRAC_PI_2);
         let wo = DVec3::new(0.0, (1.0 - cos * cos).sqrt(), cos);
-        assert!((pane.albedo(wo) - 0.65).abs() < 1e-14);
         let points = PointSet::new(Sequence::Sobol, Randomization::Owen, 1);
-        let mut mirrored = 0;
-        for index in 0..1024 {
-            let next = pane.sample(wo, &mut Sampler::new(&points, index)).unwrap();
-            assert!((next.weight - 0.65).abs() < 1e-14 && next.pdf_sr.is_none());
-            mirrored += u32::from(next.wi.z > 0.0);
-            assert!(next.wi == -wo || next.wi == DVec3::new(0.0, -wo.y, wo.z));
+        for (front, reflected) in [(true, 0.25), (false, 0.45)] {
+            let albedo = 0.4 + reflected;
+            assert!((pane.albedo(wo, front) - albedo).abs() < 1e-14);
+            let mut mirrored = 0;
+            for index in 0..1024 {
+                let next = pane.sample(wo, front, &mut Sampler::new(&points, index)).unwrap();
+                assert!((next.weight - albedo).abs() < 1e-14 && next.pdf_sr.is_none());
+                mirrored += u32::from(next.wi.z > 0.0);
+                assert!(next.wi == -wo || next.wi == DVec3::new(0.0, -wo.y, wo.z));
+            }
+            // 1024 Sobol' points lie evenly within two.
+            let expected = 1024.0 * reflected / albedo;
+            assert!((f64::from(mirrored) - expected).abs() <= 2.0, "{mirrored} not {expected}");
         }
-        // 1024 Sobol' points lie evenly within two.
-        assert!((f64::from(mirrored) - 1024.0 * 0.25 / 0.65).abs() <= 2.0, "{mirrored}");
     }
 }

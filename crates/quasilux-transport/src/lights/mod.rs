@@ -6,6 +6,7 @@
 //! start where they come in.
 
 mod area_luminaires;
+mod bright_sky;
 mod coarse_facets;
 mod coarse_lights;
 mod emitting_facets;
@@ -15,6 +16,7 @@ mod outside;
 mod pointlike;
 mod seen_triangle;
 mod selection;
+mod suns;
 
 pub(crate) use area_luminaires::AreaLuminaires;
 pub(crate) use coarse_lights::coarse_tables_bytes;
@@ -23,6 +25,7 @@ pub(crate) use facet_group::EmitterPlace;
 pub(crate) use outside::OutsideLight;
 pub(crate) use pointlike::{Incidence, LightCentre, PointLikes};
 pub(crate) use selection::{Asking, ChoiceWork, tables_bytes};
+pub(crate) use suns::{SunChoice, SunSample, Suns};
 
 use crate::lights::images::LightPathClass;
 use crate::purpose::{Purpose, PurposeRecorder};

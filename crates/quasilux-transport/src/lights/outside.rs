@@ -5,7 +5,8 @@
 //! through it, a direction evenly over what is seen of it (`seen_triangle`). Both ways are weighed
 //! by the power heuristic, so that an opening that stands somewhere else, or for a part, costs
 //! noise and no light. The sun's disk is small: it is asked for, and found by rays alone that no
-//! place could ask along.
+//! place could ask along. Of the pixels of a panorama those that are much brighter than the others
+//! are asked for as often as openings are (`bright_sky`).
 //!
 //! How photons come in, see `photons`.
 
@@ -17,6 +18,7 @@ mod photons;
 
 pub(crate) use photons::{Beside, OutsidePhoton, OutsidePhotons};
 
+use crate::lights::bright_sky::BrightSky;
 use crate::lights::seen_triangle::SeenTriangle;
 use crate::lights::selection::{Asking, DEFENSIVE_SHARE};
 use crate::spectrum::Spectrum;
@@ -39,6 +41,7 @@ pub(crate) struct OutsideLight<'a> {
     environment: &'a Environment,
     /// Triangles of the openings.
     portals: Vec<Portal>,
+    bright: Option<BrightSky<'a>>,
     sun: Option<SunDisk>,
     /// A distance in m beyond everything.
     beyond_m: f64,
@@ -84,7 +87,8 @@ impl<'a> OutsideLight<'a> {
             let panes = world.facets.iter().filter(lets_through);
             portals = panes.map(|facet| facet.corners()).collect();
         }
-        let portals = portals.into_iter().filter_map(Portal::new).collect();
+        let portals: Vec<Portal> = portals.into_iter().filter_map(Portal::new).collect();
+        let bright = BrightSky::new(environment, !portals.is_empty());
         let sun =
             environment.sun.zip(environment.sun_direction()).map(|(sun, direction)| SunDisk {
                 frame: Frame::around(direction),
@@ -96,7 +100,8 @@ impl<'a> OutsideLight<'a> {
         let far_m = world.bounds().map_or(0.0, |[low, high]| low.length().max(high.length()));
         let openings = environment.openings.iter();
         let far_m = openings.map(|it| it.origin.length()).fold(far_m, f64::max);
-        Some(Self { environment, portals, sun, beyond_m: 1e3 * (far_m + world.size_m() + 1.0) })
+        let beyond_m = 1e3 * (far_m + world.size_m() + 1.0);
+        Some(Self { environment, portals, bright, sun, beyond_m })
     }
 
     /// An illuminance in lx that is large for this scene.
@@ -105,9 +110,24 @@ impl<'a> OutsideLight<'a> {
         self.environment.horizontal_illuminance_lx() + of_sun
     }
 
-    /// Whether places ask for its light through openings.
-    pub(crate) fn has_portals(&self) -> bool {
+    /// Whether places ask for its light, through openings or in bright pixels.
+    pub(crate) fn is_asked_for(&self) -> bool {
+        !self.portals.is_empty() || self.bright.is_some()
+    }
+
+    /// Whether there are openings.
+    pub(super) fn has_portals(&self) -> bool {
         !self.portals.is_empty()
+    }
+
+    /// Corners of the triangles that they ask through.
+    pub(super) fn portal_corners(&self) -> impl Iterator<Item = [DVec3; 3]> {
+        self.portals.iter().map(|portal| portal.corners.points())
+    }
+
+    /// A distance in m beyond everything.
+    pub(crate) fn beyond_m(&self) -> f64 {
+        self.beyond_m
     }
 
     /// Whether the disk of the sun shines.
@@ -128,8 +148,8 @@ impl<'a> OutsideLight<'a> {
         self.sun.as_ref().filter(on_disk).map_or(0.0, |sun| sun.luminance_cd_m2)
     }
 
-    /// What comes through one point of the openings, weighted against the direction in which the
-    /// path goes on.
+    /// What comes through one point of the openings or from a bright pixel, weighted against the
+    /// direction in which the path goes on.
     pub(crate) fn light_sample<S: Spectrum>(
         &self,
         vertex: &Vertex<'_, S>,
@@ -137,15 +157,26 @@ impl<'a> OutsideLight<'a> {
     ) -> Option<LightSample<S>> {
         let place = Asking::at(vertex);
         let seen = self.seen(place);
-        let choice = choose_weights(u[0], seen.portals.iter().map(Seen::weight))?;
-        let portal = seen.portals[choice.index].as_ref()?;
-        let point = portal.triangle.sample_point([choice.u_remapped, u[1]]);
-        let direction = (point - place.position).normalize_or_zero();
+        let direction = match &self.bright {
+            Some(bright) if u[0] < bright.share => bright.sample([u[0] / bright.share, u[1]]),
+            _ => {
+                let share = self.bright_share();
+                let u_portal = (u[0] - share) / (1.0 - share);
+                let choice = choose_weights(u_portal, seen.portals.iter().map(Seen::weight))?;
+                let portal = seen.portals[choice.index].as_ref()?;
+                let point = portal.triangle.sample_point([choice.u_remapped, u[1]]);
+                (point - place.position).normalize_or_zero()
+            }
+        };
         let cos = vertex.cos(direction);
         if cos <= 0.0 {
             return None;
         }
         let pdf_sr = self.pdf_of(&seen, place, direction);
+        // At the very edge of a pixel rounding may find its neighbour.
+        if pdf_sr <= 0.0 {
+            return None;
+        }
         let beside_sr = vertex.pdf_sr(direction);
         let lx_sr = self.luminance_cd_m2(direction) * cos;
         let illuminance_lx = lx_sr / (pdf_sr + beside_sr * (beside_sr / pdf_sr));
@@ -155,7 +186,12 @@ impl<'a> OutsideLight<'a> {
 
     /// Density in sr^-1 with which [`Self::light_sample`] asks along a direction.
     pub(crate) fn pdf_sr(&self, place: Asking, direction: DVec3) -> f64 {
-        if self.portals.is_empty() { 0.0 } else { self.pdf_of(&self.seen(place), place, direction) }
+        if self.is_asked_for() { self.pdf_of(&self.seen(place), place, direction) } else { 0.0 }
+    }
+
+    /// The share of the samples that asks for bright pixels.
+    fn bright_share(&self) -> f64 {
+        self.bright.as_ref().map_or(0.0, |bright| bright.share)
     }
 
     /// What one point of the sun's disk gives.
@@ -210,6 +246,14 @@ impl<'a> OutsideLight<'a> {
 
     /// Density in sr^-1 with which a place that sees the portals so asks along a direction.
     fn pdf_of(&self, seen: &SeenPortals, place: Asking, direction: DVec3) -> f64 {
+        let through_portals = self.pdf_through(seen, place, direction);
+        self.bright.as_ref().map_or(through_portals, |bright| {
+            bright.share * bright.pdf_sr(direction) + (1.0 - bright.share) * through_portals
+        })
+    }
+
+    /// Density in sr^-1 of a direction where a portal has been chosen.
+    fn pdf_through(&self, seen: &SeenPortals, place: Asking, direction: DVec3) -> f64 {
         if seen.total <= 0.0 {
             return 0.0;
         }

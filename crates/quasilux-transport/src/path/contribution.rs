@@ -1,6 +1,7 @@
 //! Contribution of one path, split into direct and indirect light and into terms of the Neumann
 //! series.
 
+use crate::path::daylight::FromOutside;
 use crate::path::lobes::Lobes;
 use crate::spectrum::Spectrum;
 
@@ -21,6 +22,8 @@ pub(crate) struct PathContribution<S> {
     pub(crate) asked: Vec<f64>,
     /// Materials of the emitting facets that it met coming from specular surfaces.
     pub(crate) specular_hits: Vec<u32>,
+    /// What came from outside, where that is kept apart by direction; not in the sums above.
+    pub(crate) from_outside: Vec<FromOutside>,
     /// The glossy surfaces that it came to.
     pub(crate) lobes: Lobes,
 }

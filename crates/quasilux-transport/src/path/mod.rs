@@ -1,6 +1,7 @@
 //! Path tracing from sensors and cameras, with next-event estimation.
 
 pub(crate) mod contribution;
+pub(crate) mod daylight;
 pub(crate) mod end;
 pub(crate) mod frozen_map;
 pub(crate) mod light_subpath;

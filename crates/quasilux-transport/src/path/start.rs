@@ -1,5 +1,6 @@
 //! Start of a path: a sensor point or a pixel, and the quantity measured there.
 
+use crate::lights::Suns;
 use crate::path::end::Rest;
 use crate::path::partition::Partition;
 use crate::path::sketch::{PixelSketch, ProbedLights};
@@ -25,6 +26,8 @@ pub(crate) struct Start<'p, S> {
     pub(crate) pixel: Option<&'p PixelSketch>,
     /// The coordinates of a light subpath that it is connected to; `None` for plain paths.
     pub(crate) light_subpath: Option<Sampler<'p>>,
+    /// Where the sun may stand, if what comes from outside is kept apart by direction.
+    pub(crate) suns: Option<&'p Suns>,
     pub(crate) sampler: Sampler<'p>,
 }
 

@@ -24,8 +24,9 @@ use crate::bsdf::TransportMode;
 use crate::context::Context;
 use crate::cutoff::Gain;
 use crate::lights::images::ImageSamples;
-use crate::lights::{Asking, ChoiceWork};
+use crate::lights::{Asking, ChoiceWork, SunChoice};
 use crate::path::contribution::PathContribution;
+use crate::path::daylight::Daylight;
 use crate::path::end::Rest;
 use crate::path::light_subpath::{LightSubpaths, scattered};
 use crate::path::lobes::{self, Met};
@@ -92,6 +93,8 @@ pub(crate) struct Path<'p, S> {
     /// Where and how it last asked for light from outside, if it left along a direction that could
     /// have been asked along.
     asked_outside: Option<AskedOutside>,
+    /// Where what comes from outside is kept apart.
+    daylight: Option<Daylight<'p>>,
     /// Factors from radiance along the path to what its start seeks.
     beta: S,
     /// The same for what the next surface emits itself.
@@ -115,6 +118,7 @@ pub(crate) struct Path<'p, S> {
 pub(crate) struct PathWork<S> {
     pub(crate) shadows: ShadowQueue<S>,
     choice: ChoiceWork,
+    suns: SunChoice,
     images: ImageSamples<S>,
     sums: Sums,
     pub(crate) light_subpaths: LightSubpaths<S>,
@@ -156,7 +160,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
         work: &mut PathWork<S>,
     ) -> Self {
         let Start { from, measurement, rest, caustics, partition, virtual_lights, .. } = start;
-        let Start { light_subpath, pixel, mut sampler, .. } = start;
+        let Start { light_subpath, pixel, suns, mut sampler, .. } = start;
         let (direction, pdf_sr, beta) = match measurement {
             Measurement::Illuminance { n, .. } => {
                 let u = context.draw(&mut sampler, Purpose::FirstDirection, Sampler::next_2d);
@@ -183,6 +187,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
             asked_from: None,
             specular_way: None,
             asked_outside: None,
+            daylight: suns.map(Daylight::new),
             beta,
             beta_emitted: beta,
             beta_outside: OutsideFactors { here: beta, past_panes: beta },
@@ -242,7 +247,10 @@ impl<'p, S: Spectrum> Path<'p, S> {
             let light = answer.light.luminance();
             self.found.asked.push(if answer.bounces.is_some() { light } else { -light });
         }
-        if let Some(bounces) = answer.bounces {
+        if let Some(daylight) = &mut self.daylight {
+            let light = answer.bounces.map(|_| answer.light.luminance());
+            self.found.from_outside.extend(daylight.answered(light));
+        } else if let Some(bounces) = answer.bounces {
             self.receive(answer.light, bounces);
         }
     }

@@ -277,7 +277,8 @@ fn add<'b>(
 /// SHA-256 of all that the sums of a part hang on: the settings, the number of samples and the
 /// scene without its cameras.
 fn fingerprint(scene: &Scene, settings: &Settings, samples: u64) -> [u8; 32] {
-    let Scene { mesh, materials, lights, environment, sensors, cameras: _ } = scene;
+    // Of the weather, the environment has all that is simulated.
+    let Scene { mesh, materials, lights, environment, weather: _, sensors, cameras: _ } = scene;
     let mut text = Hashed(Sha256::new());
     for position in &mesh.positions {
         position.to_array().iter().for_each(|x| text.0.update(x.to_bits().to_le_bytes()));

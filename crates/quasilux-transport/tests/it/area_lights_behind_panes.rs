@@ -30,7 +30,7 @@ fn light_comes_through_panes_as_they_let_it() {
         let transmittances: Vec<f64> = (0..1 + seed % 3).map(|_| dice.between(0.3, 0.9)).collect();
         for (number, share) in (1..).zip(&transmittances) {
             let (transmittance, reflectance) = (table(*share), table(0.0));
-            let pane = Bsdf::Pane(Pane::Measured { transmittance, reflectance });
+            let pane = Bsdf::Pane(Pane::measured(transmittance, reflectance));
             let slope = DVec3::Z * dice.between(-0.02, 0.02);
             let corner = DVec3::new(-3.0, -9.0, -0.2 * f64::from(number));
             add_panel(&mut scene, corner, (DVec3::X + slope) * 9.0, DVec3::Y * 18.0, pane);

@@ -2,13 +2,13 @@
 //! what the mirrors reflect, d the way over all of them. All surfaces but mirrors are black, so
 //! nothing is sampled and values are exact to rounding.
 
-use crate::scenes::{diffuse, mirror, point_light, points};
+use crate::scenes::{all_walls_emit, diffuse, mirror, point_light, points, room};
 use glam::{DMat3, DVec3};
 use quasilux_photometry::{LuminousShape, read_ies};
 use quasilux_scene::bsdf::{AngularNode, AngularTable, Mirror, Pane};
 use quasilux_scene::light::Luminaire;
 use quasilux_scene::{Bsdf, Light, Material, Mesh, Rgb, Scene};
-use quasilux_transport::{Estimates, Settings, simulate};
+use quasilux_transport::{Estimates, EstimatorKind, Settings, simulate};
 use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
@@ -278,7 +278,7 @@ fn measured_panes_do_as_their_tables_say() {
     };
     let transmittance = table(&[[0.0, 0.8], [60.0, 0.5], [90.0, 0.0]]);
     let reflectance = table(&[[0.0, 0.0], [60.0, 0.3], [90.0, 1.0]]);
-    let pane = Bsdf::Pane(Pane::Measured { transmittance, reflectance });
+    let pane = Bsdf::Pane(Pane::measured(transmittance, reflectance));
     let mut scene = empty();
     add_panel(&mut scene, at(-9., -9., 1.), DVec3::X * 18., DVec3::Y * 18., pane);
     let (light, below, above) = (at(1.0, 0.0, 2.0), at(-1.0, 0.0, 0.0), at(-1.0, 0.0, 2.0));
@@ -288,6 +288,48 @@ fn measured_panes_do_as_their_tables_say() {
     let through_lx = 0.575 * from_point_lx(1000.0, light, below, DVec3::Z);
     let mirrored_lx = 0.225 * from_point_lx(1000.0, at(1.0, 0.0, 0.0), above, DVec3::NEG_Z);
     assert_lx(&scene, &[through_lx, mirrored_lx]);
+}
+
+/// The sides of a measured pane mirror each as its table says: as images show it, and as paths find
+/// it.
+#[test]
+fn sides_of_a_pane_mirror_differently() {
+    let table = |share: f64| AngularTable::constant(share);
+    let (t, front, back) = (0.3, 0.6, 0.1);
+    let pane = Bsdf::Pane(Pane::Measured {
+        transmittance: table(t),
+        front_reflectance: table(front),
+        back_reflectance: table(back),
+    });
+    // Its front looks up.
+    let mut scene = empty();
+    add_panel(&mut scene, at(-9., -9., 1.), DVec3::X * 18., DVec3::Y * 18., pane.clone());
+    for up in [1.0, -1.0] {
+        let mut scene = scene.clone();
+        let (light, place) = (at(1.0, 0.0, 1.0 + up), at(-1.0, 0.0, 1.0 + up));
+        scene.lights.push(point_light(light, 1000.0));
+        let n = DVec3::Z * -up;
+        scene.sensors.push(points("p", &[(place, n)]));
+        let share = if up > 0.0 { front } else { back };
+        let image = at(1.0, 0.0, 1.0 - up);
+        assert_lx(&scene, &[share * from_point_lx(1000.0, image, place, n)]);
+    }
+    // In a room of even luminance: what is let through and what is mirrored, close to the pane.
+    let mut scene = room(DVec3::splat(4.0), diffuse(0.0));
+    all_walls_emit(&mut scene, 100.0);
+    add_panel(&mut scene, at(0.1, 0.1, 2.0), DVec3::X * 3.8, DVec3::Y * 3.8, pane);
+    let [above, below] = [0.005, -0.005].map(|up| at(2.0, 2.0, 2.0 + up));
+    scene.sensors.push(points("p", &[(above, DVec3::NEG_Z), (below, DVec3::Z)]));
+    for estimator in [EstimatorKind::Path, EstimatorKind::Auto] {
+        let max_samples = Some(1024);
+        let settings = Settings { estimator, rel_tol: 0.01, max_samples, ..Settings::default() };
+        let found = simulate(&scene, &settings, &mut ()).point_intervals(0);
+        for (interval, share) in found.iter().zip([t + front, t + back]) {
+            let expected_lx = share * 100.0 * std::f64::consts::PI;
+            let off = (interval.value / expected_lx - 1.0).abs();
+            assert!(off < 0.03, "{estimator:?}: {interval:?}, expected {expected_lx}");
+        }
+    }
 }
 
 /// Between two panes light that grazes them goes far: what is seldom reflected at normal incidence

@@ -2,6 +2,7 @@
 
 mod adaptivity;
 mod agreement;
+mod annual;
 mod area_lights;
 mod area_lights_behind_panes;
 mod area_luminaires;
@@ -24,6 +25,7 @@ mod furnace;
 mod glints;
 mod hall;
 mod images;
+mod klems_windows;
 mod many_lights;
 mod map_dimensions;
 mod materials;

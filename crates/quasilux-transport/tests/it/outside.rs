@@ -6,7 +6,7 @@ use glam::DVec3;
 use quasilux_scene::bsdf::Pane;
 use quasilux_scene::light::AreaLight;
 use quasilux_scene::{Bsdf, Environment, Light, Opening, Scene, Sun};
-use quasilux_sky::{CieType, Distribution, Sky, SkyLevel, SkyPoint};
+use quasilux_sky::{CieType, Distribution, Panorama, Sky, SkyLevel, SkyPoint};
 use quasilux_transport::{Estimates, EstimatorKind, Settings, simulate};
 use std::f64::consts::PI;
 
@@ -264,5 +264,61 @@ fn an_even_world_gives_pi_times_its_luminance() {
     scene.environment = Some(even(100.0));
     for [lx, half_width] in intervals(&run(&scene, 0.001, 1)) {
         assert!((lx - 100.0 * PI).abs() <= 2.0 * half_width + 0.01, "{lx} ± {half_width}");
+    }
+}
+
+/// A sky of 72 x 36 pixels, of which one, towards -y and 32.5 degrees high, gives most of the
+/// light.
+fn panorama_with_sun() -> Sky {
+    let mut bytes = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 36 +X 72\n".to_vec();
+    for pixel in 0..36 * 72 {
+        let exponent = if pixel == 11 * 72 { 143 } else { 130 };
+        bytes.extend_from_slice(&[128, 128, 128, exponent]);
+    }
+    let panorama = Panorama::parse(&bytes).unwrap().panorama.with_middle_at(-2.5);
+    Sky::new(Distribution::panorama(panorama), SkyLevel::Absolute).unwrap()
+}
+
+/// The sun of a picture: in black rooms by quadrature, and in white ones the same whether openings
+/// are named, or named where they are not, or not at all.
+#[test]
+fn the_sun_of_a_picture_is_asked_for() {
+    let mut numbers = Numbers(23);
+    for (number, north_deg) in [(0, 0.0), (1, 20.0), (2, -35.0)] {
+        let Room { mut scene, window } = room_with_window(&mut numbers, 0.0);
+        let environment = Environment {
+            sky: panorama_with_sun(),
+            north_deg,
+            openings: vec![window],
+            ..even(0.0)
+        };
+        scene.environment = Some(environment.clone());
+        let estimates = run(&scene, 0.005, number);
+        assert!(estimates.samples < 1 << 16, "{} samples", estimates.samples);
+        for (place, [lx, half_width]) in scene.sensors[0].points().iter().zip(intervals(&estimates))
+        {
+            let expected = through(&window, &environment, |_| 1.0, [place.position, place.normal]);
+            let off = (lx - expected).abs();
+            assert!(off <= 2.0 * half_width + 0.02 * expected, "{number}: {lx} not {expected}");
+        }
+    }
+    let Room { mut scene, window } = room_with_window(&mut numbers, 0.6);
+    let elsewhere = Opening { origin: window.origin + 0.4 * window.u, ..window };
+    let mut found = Vec::new();
+    for openings in [vec![window], vec![elsewhere], Vec::new()] {
+        let sky = panorama_with_sun();
+        scene.environment = Some(Environment { sky, openings, ..even(0.0) });
+        let settings = Settings {
+            estimator: EstimatorKind::Path,
+            rel_tol: 0.02,
+            max_samples: Some(1 << 15),
+            ..Settings::default()
+        };
+        found.push(intervals(&simulate(&scene, &settings, &mut ())));
+    }
+    for other in &found[1..] {
+        for ([a, half_a], [b, half_b]) in found[0].iter().zip(other) {
+            assert!((a - b).abs() <= 1.5 * (half_a + half_b), "{found:?}");
+        }
     }
 }

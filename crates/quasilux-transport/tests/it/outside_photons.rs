@@ -5,9 +5,7 @@ use crate::outside::{ETA, Numbers, Room, clear_pane, even, outside, room_with_wi
 use crate::scenes::{diffuse, point_light};
 use glam::DVec3;
 use quasilux_scene::bsdf::Pane;
-use quasilux_scene::{
-    Bsdf, Environment, Grid, Opening, Quantity, Scene, Sensor, SensorShape, Sun,
-};
+use quasilux_scene::{Bsdf, Environment, Grid, Opening, Quantity, Scene, Sensor, SensorShape, Sun};
 use quasilux_sky::SkyPoint;
 use quasilux_transport::{Estimates, EstimatorKind, Settings, Switch, simulate};
 use std::f64::consts::PI;
@@ -52,7 +50,7 @@ fn found(estimates: &Estimates) -> Vec<Found> {
 
 /// Standard errors between what was found and what is expected.
 fn z(found: Found, expected: Found) -> f64 {
-    (found.lx - expected.lx) / found.error.hypot(expected.error)
+    (found.lx - expected.lx) / libm::hypot(found.error, expected.error)
 }
 
 /// Sides of a black plate in the open: openings around it, in part or twice, change nothing.
@@ -221,8 +219,7 @@ fn threads_change_no_bit_beside_lamps() {
         (EstimatorKind::BidirectionalMap, Switch::Auto, 1 << 4),
         (EstimatorKind::Auto, Switch::Auto, 1 << 7),
     ] {
-        let [one, two] =
-            [1, 2].map(|threads| find(estimator, connections, samples, threads));
+        let [one, two] = [1, 2].map(|threads| find(estimator, connections, samples, threads));
         for (one, two) in one.iter().zip(&two) {
             assert_eq!(one.lx.to_bits(), two.lx.to_bits(), "{estimator:?}");
         }
@@ -253,7 +250,8 @@ fn lit_room(numbers: &mut Numbers, kind: u64, with_sun: bool) -> Scene {
     let Room { mut scene, window } = room_with_window(numbers, 0.6);
     let mut environment = outside(numbers);
     if with_sun {
-        let [altitude_deg, azimuth_deg] = [numbers.within(15.0, 60.0), numbers.within(120.0, 240.0)];
+        let [altitude_deg, azimuth_deg] =
+            [numbers.within(15.0, 60.0), numbers.within(120.0, 240.0)];
         let centre = SkyPoint { altitude_deg, azimuth_deg };
         environment.north_deg = 0.0;
         environment.sun = Some(Sun { centre, normal_illuminance_lx: 30_000.0 });

@@ -29,6 +29,7 @@ pub(crate) fn room(size: DVec3, bsdf: Bsdf) -> Scene {
         lights: Vec::new(),
         sensors: Vec::new(),
         environment: None,
+        weather: None,
         cameras: Vec::new(),
     }
 }

@@ -154,7 +154,7 @@ mod tests {
             ("run x --qqqqqqqqq", "of `quasilux run`; see `quasilux run --help`"),
             ("run x y", "unexpected \"y\" in the arguments of `quasilux run`; see"),
             ("run", "`quasilux run` lacks <PROJECT>; see `quasilux run --help`"),
-            ("rum", "unknown command \"rum\"; expected one of run, check, validate"),
+            ("rum", "unknown command \"rum\"; expected one of run, annual, check, sky"),
             ("rum", "; did you mean \"run\"?"),
             ("run x --seed 1 --seed 2", "--seed is given twice; expected it once"),
             ("run x --plan p --seed 1", "--plan and --seed exclude each other; expected one"),

@@ -3,7 +3,7 @@
 use clap::builder::PossibleValuesParser;
 use quasilux_scene::project::doubt_of_tolerance;
 use std::fmt::Display;
-use std::ops::RangeInclusive;
+use std::ops::{Range, RangeInclusive};
 use std::time::Duration;
 
 /// The names of a closed set.
@@ -47,6 +47,16 @@ fn any_share(text: &str) -> Option<f64> {
         None => number(text),
     };
     share.filter(|share| *share > 0.0 && *share <= 1.0)
+}
+
+/// Hours of a day, like 8-18 or 8.5-17.
+pub(super) fn hours_of_day(text: &str) -> Result<Range<f64>, String> {
+    let number = |text: &str| text.trim().parse::<f64>().ok();
+    let ends = text.split_once('-').and_then(|(from, to)| number(from).zip(number(to)));
+    let is_in_day = |(from, to): &(f64, f64)| (0.0..*to).contains(from) && *to <= 24.0;
+    ends.filter(is_in_day)
+        .map(|(from, to)| from..to)
+        .ok_or_else(|| "expected hours of a day, like 8-18".to_owned())
 }
 
 /// A positive illuminance in lx.

@@ -1,5 +1,6 @@
 //! One file a command.
 
+mod annual;
 mod bsdf;
 mod check;
 mod completions;
@@ -14,8 +15,10 @@ mod points;
 mod resume;
 mod run;
 mod shard;
+mod sky;
 mod validate;
 
+pub(crate) use annual::annual;
 pub(crate) use bsdf::bsdf;
 pub(crate) use check::{check, document as check_document, marks, text as check_text};
 pub(crate) use completions::completions;
@@ -29,4 +32,5 @@ pub(crate) use resume::{KeptRun, project_file, resume};
 pub use run::Finished;
 pub(crate) use run::{Folder, Job, count, pool, run, work};
 pub(crate) use shard::shard;
+pub(crate) use sky::sky;
 pub(crate) use validate::validate;

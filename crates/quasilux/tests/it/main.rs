@@ -1,5 +1,6 @@
 //! The program from outside: arguments and files in; exit codes, messages and results out.
 
+mod annual;
 mod area;
 #[cfg(target_os = "linux")]
 mod attacks;
@@ -14,6 +15,7 @@ mod embedded;
 mod experiment;
 mod explain;
 mod fingerprint;
+mod glazing;
 mod kept;
 mod limits;
 mod manuals;
@@ -25,7 +27,9 @@ mod results;
 mod resumed;
 mod scenes;
 mod sequences;
+mod sky;
 mod spread;
 mod support;
 mod tilt;
 mod validation;
+mod weather;

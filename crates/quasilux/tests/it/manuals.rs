@@ -2,9 +2,11 @@
 
 use crate::support::Folder;
 
-const COMMANDS: [&str; 13] = [
+const COMMANDS: [&str; 15] = [
     "run",
+    "annual",
     "check",
+    "sky",
     "validate",
     "experiment",
     "points",

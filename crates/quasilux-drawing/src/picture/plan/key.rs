@@ -18,6 +18,11 @@ const LINE_PX: f64 = 26.0;
 const CORNER_PX: f64 = 330.0;
 const IN_CORNER_PX: f64 = 140.0;
 
+/// The middle of the pointer to a turned north, from the corner's own; half its length, its name.
+const NORTH_PX: DVec2 = DVec2::new(152.0, 44.0);
+const NORTH_RADIUS_PX: f64 = 20.0;
+const NORTH: &str = "north";
+
 /// A symbol of the key, drawn around a place.
 type Symbol = fn(&mut Drawing, DVec2);
 
@@ -147,21 +152,43 @@ fn draw_camera(drawing: &mut Drawing, at: DVec2) {
     drawing.disk([at.x - 12.0, at.y], 3.5, ink::CAMERA);
 }
 
-/// Draws the directions of x and y, +y being north, and a scale bar into the free corner of the
-/// views.
-pub(crate) fn compass_and_scale(drawing: &mut Drawing, layout: &Layout) {
+/// Draws the directions of x, y and north, and a scale bar into the free corner of the views.
+pub(crate) fn compass_and_scale(drawing: &mut Drawing, layout: &Layout, north_deg: f64) {
+    let is_turned = north_deg.rem_euclid(360.0) != 0.0;
     let corner = DVec2::from(layout.corner.corner_px);
     let stroke = Stroke::solid(INK, 1.6);
     let origin = corner + DVec2::new(12.0, 70.0);
     let style = |size_px, anchor| TextStyle::new(size_px, INK, anchor);
-    for (to, name, aside) in
-        [([0.0, -54.0], "y, north", [10.0, 8.0]), ([54.0, 0.0], "x", [9.0, 5.0])]
+    let along_y = if is_turned { "y" } else { "y, north" };
+    for (to, name, aside) in [([0.0, -54.0], along_y, [10.0, 8.0]), ([54.0, 0.0], "x", [9.0, 5.0])]
     {
         let tip = origin + DVec2::from(to);
         symbols::pointer(drawing, origin, tip, stroke);
         let base = tip + DVec2::from(aside);
         drawing.text(base.to_array(), style(14.0, Anchor::Start), name);
     }
+    if is_turned {
+        draw_north(drawing, corner + NORTH_PX, north_deg);
+    }
+    draw_scale(drawing, layout, corner);
+}
+
+/// Draws a pointer to the north around a place, with its name beyond the tip.
+fn draw_north(drawing: &mut Drawing, at: DVec2, north_deg: f64) {
+    let (sin, cos) = libm::sincos(north_deg.to_radians());
+    let to = DVec2::new(-sin, -cos);
+    let (tail, tip) = (at - to * NORTH_RADIUS_PX, at + to * NORTH_RADIUS_PX);
+    symbols::pointer(drawing, tail, tip, Stroke::solid(INK, 1.6));
+    // As far from the tip as the word reaches that way.
+    let half_word = DVec2::new(0.5 * width_px(NORTH, 14.0), 5.0);
+    let beyond = 6.0 + (half_word * to.abs()).length();
+    let base = tip + to * beyond + DVec2::Y * half_word.y;
+    drawing.text(base.to_array(), TextStyle::new(14.0, INK, Anchor::Middle), NORTH);
+}
+
+/// Draws a bar of round lengths.
+fn draw_scale(drawing: &mut Drawing, layout: &Layout, corner: DVec2) {
+    let style = |size_px, anchor| TextStyle::new(size_px, INK, anchor);
     let px_per_m = layout.views[0].projection.px_per_m;
     let most_m = (layout.corner.size_px[0] - 40.0).clamp(60.0, 190.0) / px_per_m;
     let ticks = Ticks::within(0.0, most_m, 4, 0.0);

@@ -34,6 +34,8 @@ pub struct PlanPicture<'a> {
     pub cameras: &'a [PlanCamera<'a>],
     /// Remarks. Luminaires at their places are drawn in red.
     pub marks: &'a [PlanMark],
+    /// Where north is: degrees from +y, counter-clockwise seen from above.
+    pub north_deg: f64,
 }
 
 /// Emitting triangles of one kind.

@@ -52,7 +52,7 @@ pub fn plan(picture: &PlanPicture<'_>) -> Drawing {
         draw::draw(&mut drawing, &contents, index);
         axes::draw(&mut drawing, view, &heading(words, view.frame.size_px[0]), names);
     }
-    key::compass_and_scale(&mut drawing, layout);
+    key::compass_and_scale(&mut drawing, layout, picture.north_deg);
     key.draw(&mut drawing, layout);
     notes.draw(&mut drawing, DVec2::new(LEFT_PX, notes_top), content_px);
     drawing

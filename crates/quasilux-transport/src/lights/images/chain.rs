@@ -98,8 +98,9 @@ impl Links {
             let point = at + line * (height_m / apart_m);
             let facet = mirror.facet_at(point, slack_m)?;
             let cos = (apart_m / line.length()).min(1.0);
-            let bsdf = world.bsdf_of(&world.facets[facet.facet as usize]);
-            reflected = reflected * bsdf.image_reflectance(cos)?;
+            let mirroring = &world.facets[facet.facet as usize];
+            let front = mirroring.front_normal.dot(mirror.normal) * side > 0.0;
+            reflected = reflected * world.bsdf_of(mirroring).image_reflectance(cos, front)?;
             let inward = (facet.centroid() - point).normalize_or_zero();
             let inner = point + inward * (HAIRS_INWARD * slack_m);
             self.0.push(Link { point, inner, facet: facet.facet, n: mirror.normal * side });

@@ -126,7 +126,7 @@ impl SpecularImages {
         lights: &Lights<'_>,
     ) -> Option<String> {
         let is_specular = |facet: &Facet| world.bsdf_of(facet).is_specular();
-        let is_shown = |facet: &Facet| world.bsdf_of(facet).image_reflectance(1.0).is_some();
+        let is_shown = |facet: &Facet| world.bsdf_of(facet).image_reflectance(1.0, true).is_some();
         let mut specular = world.facets.iter().filter(|facet| is_specular(facet)).peekable();
         let no_light = lights.pointlikes.is_empty() && lights.area_luminaires.is_empty();
         if no_light || specular.peek().is_none() {
@@ -207,7 +207,7 @@ impl SpecularImages {
     /// The most that is left of light of an area light that comes over specular surfaces and that
     /// nobody asks for: what no image shows, and what comes over mirrors and through panes.
     pub(crate) fn most_left_out<S: Spectrum>(&self, world: &World<S>) -> f64 {
-        let is_shown = |facet: &Facet| world.bsdf_of(facet).image_reflectance(1.0).is_some();
+        let is_shown = |facet: &Facet| world.bsdf_of(facet).image_reflectance(1.0, true).is_some();
         let mut specular = world.facets.iter().filter(|facet| world.bsdf_of(facet).is_specular());
         if self.mirrors.curved_facets > 0 || !specular.all(is_shown) {
             return 1.0;

@@ -126,7 +126,9 @@ impl MaxReflectance {
         let mut so_far = 0.0_f64;
         for look in (0..=COSINES * LOOKS).rev() {
             let cos = look as f64 / (COSINES * LOOKS) as f64;
-            so_far = so_far.max(bsdf.image_reflectance(cos)?.max_channel());
+            for front in [true, false] {
+                so_far = so_far.max(bsdf.image_reflectance(cos, front)?.max_channel());
+            }
             most[look / LOOKS] = so_far;
         }
         (so_far > 0.0).then(|| Self(Arc::new(most)))

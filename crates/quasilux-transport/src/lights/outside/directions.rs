@@ -142,7 +142,8 @@ mod tests {
             assert!((back[0] - u[0]).abs() + (back[1] - u[1]).abs() < 1e-9, "{u:?}, not {back:?}");
             let step = 1e-7;
             let sample = |u| table.sample_direction(u).direction.to_array();
-            let one_cell = |u: [f64; 2]| place_of(table.sample_direction(u).direction).map(|at| at.0);
+            let one_cell =
+                |u: [f64; 2]| place_of(table.sample_direction(u).direction).map(|at| at.0);
             let corners = [[step, step], [-step, -step], [step, -step], [-step, step]];
             let moved = corners.map(|by| [u[0] + by[0], u[1] + by[1]]);
             if moved.iter().all(|other| one_cell(*other) == one_cell(u)) {
@@ -193,7 +194,8 @@ mod tests {
     /// found. Where nothing shines there is nothing to draw.
     #[test]
     fn the_integral_is_that_of_the_function() {
-        let flat = DirectionTable::new(|direction| if direction.z < 0.0 { 0.0 } else { direction.z });
+        let flat =
+            DirectionTable::new(|direction| if direction.z < 0.0 { 0.0 } else { direction.z });
         assert!((flat.unwrap().integral() / PI - 1.0).abs() < 1e-3);
         assert!(DirectionTable::new(|_| 0.0).is_none());
     }

@@ -97,8 +97,7 @@ impl OutsidePhotons {
         let distances_m = corners.map(|corner| corner.distance(hull.centre()));
         let reach_m = REACH * distances_m.fold(hull.radius_m(), f64::max);
         let looks = Looks::new(outside, world);
-        let apertures =
-            |openness: &[[f64; 2]]| Apertures::new(&outside.portals, openness, reach_m);
+        let apertures = |openness: &[[f64; 2]]| Apertures::new(&outside.portals, openness, reach_m);
         let openings = apertures(&looks.of_sky());
         let sun = outside.sun.as_ref();
         let mut ways: Vec<WayIn> = Vec::new();

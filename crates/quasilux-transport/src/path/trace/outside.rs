@@ -6,7 +6,8 @@
 use super::{Onward, Path, PathWork};
 use crate::bsdf::{Bsdf, BsdfSample};
 use crate::context::Context;
-use crate::lights::Asking;
+use crate::lights::{Asking, SunSample};
+use crate::path::daylight::{FromOutside, Whence};
 use crate::purpose::Purpose;
 use crate::spectrum::Spectrum;
 use crate::world::Interaction;
@@ -62,7 +63,8 @@ impl AskedOutside {
 }
 
 impl<S: Spectrum> Path<'_, S> {
-    /// Asks for what comes through one point of the openings, and from one of the sun.
+    /// Asks for what comes through one point of the openings or from a bright pixel, and from one
+    /// point of the sun.
     pub(super) fn sample_direct_outside(
         &mut self,
         context: &Context<'_, S>,
@@ -71,16 +73,44 @@ impl<S: Spectrum> Path<'_, S> {
     ) {
         let Some(outside) = &context.lights.outside else { return };
         let surface = self.bounces_asked;
-        if outside.has_portals() {
+        if outside.is_asked_for() {
             let purpose = Purpose::Opening { surface };
             let u = context.draw(&mut self.sampler, purpose, Sampler::next_2d);
-            self.ask(outside.light_sample(vertex, u), vertex, work);
+            let sample = outside.light_sample(vertex, u);
+            if let (Some(daylight), Some(sample)) = (&mut self.daylight, &sample) {
+                daylight.note_asked(Whence::Outside(sample.direction));
+            }
+            self.ask(sample, vertex, work);
         }
+        self.sample_direct_suns(context, vertex, work);
         if outside.has_sun() {
             let purpose = Purpose::Sun { surface };
             let u = context.draw(&mut self.sampler, purpose, Sampler::next_2d);
             self.ask(outside.sun_sample(vertex, u), vertex, work);
         }
+    }
+
+    /// Asks for some of the suns at a surface: who keeps light apart by direction knows what they
+    /// give straight to a sensor.
+    fn sample_direct_suns(
+        &mut self,
+        context: &Context<'_, S>,
+        vertex: &Vertex<'_, S>,
+        work: &mut PathWork<S>,
+    ) {
+        let (Some(outside), Some(daylight)) = (&context.lights.outside, &mut self.daylight) else {
+            return;
+        };
+        if vertex.is_sensor() {
+            return;
+        }
+        let purpose = Purpose::Sun { surface: self.bounces_asked };
+        let u = context.draw(&mut self.sampler, purpose, Sampler::next_1d);
+        let PathWork { shadows, suns, .. } = work;
+        daylight.suns.samples(outside, vertex, u, suns, |SunSample { sun, light_sample }| {
+            daylight.note_asked(Whence::Sun(sun));
+            shadows.ask(self.number, vertex, &light_sample);
+        });
     }
 
     /// Notes how the vertex that it leaves asked along its new direction: panes that let it
@@ -116,6 +146,14 @@ impl<S: Spectrum> Path<'_, S> {
             None => found_cd_m2 += outside.sun_cd_m2(self.direction),
         }
         let light = self.beta_outside.here * found_cd_m2;
+        if self.daylight.is_some() {
+            let whence = match self.asked_outside {
+                Some(_) => Whence::Outside(self.direction),
+                None => Whence::Mirrored(self.direction),
+            };
+            self.found.from_outside.push(FromOutside { whence, light: light.luminance() });
+            return;
+        }
         self.found.add(bounces, light);
         // No map at the vertex that it left has this, panes between or not.
         let asked = self.asked_outside.and_then(|asked| asked.bounces);

@@ -67,6 +67,7 @@ fn room(size: DVec3, materials: [Bsdf; 7], lights: Vec<Light>) -> Scene {
         lights,
         sensors: Vec::new(),
         environment: None,
+        weather: None,
         cameras: Vec::new(),
     }
 }

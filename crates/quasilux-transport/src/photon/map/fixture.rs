@@ -21,6 +21,7 @@ pub(in crate::photon) fn square() -> World<f64> {
         materials: vec![Material { name: "grey".to_owned(), bsdf }],
         lights: Vec::new(),
         environment: None,
+        weather: None,
         cameras: Vec::new(),
         sensors: Vec::new(),
     };

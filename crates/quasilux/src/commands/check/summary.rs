@@ -5,7 +5,8 @@ use crate::project::Project;
 use glam::DVec3;
 use quasilux_inspection::Finding;
 use quasilux_report::number::{brief, plural};
-use quasilux_scene::{Environment, Light, Scene, SensorShape};
+use quasilux_scene::bsdf::Pane;
+use quasilux_scene::{Bsdf, Environment, Light, Scene, SensorShape};
 use std::fmt::Write;
 
 /// Lights, sensors, materials that are listed.
@@ -104,12 +105,25 @@ fn materials(scene: &Scene) -> Vec<String> {
                 let [r, g, b] = reflectance.0.map(|channel| brief(channel, 3));
                 format!(", reflectance [{r}, {g}, {b}]")
             }
-            None => String::new(),
+            None => pane(&material.bsdf),
         };
         let area_m2 = brief(area_m2, DIGITS);
         format!("{:<width$} {}{reflectance}, {area_m2} m²", material.name, material.bsdf.kind())
     };
     used.map(line).collect()
+}
+
+/// What a measured pane does at normal incidence, and what it lets through at 60 degrees.
+fn pane(bsdf: &Bsdf) -> String {
+    let Bsdf::Pane(Pane::Measured { transmittance, front_reflectance, back_reflectance }) = bsdf
+    else {
+        return String::new();
+    };
+    let [t, front, back] = [transmittance, front_reflectance, back_reflectance]
+        .map(|table| brief(table.at_angle(0.0), 3));
+    let aslant = brief(transmittance.at_angle(60_f64.to_radians()), 3);
+    let reflected = if front == back { front } else { format!("{front} (front), {back} (back)") };
+    format!(", transmittance {t} ({aslant} at 60 degrees), reflectance {reflected}")
 }
 
 fn light(project: &Project, index: usize) -> String {

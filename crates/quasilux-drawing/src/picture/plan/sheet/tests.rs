@@ -208,3 +208,30 @@ fn odd_scenes_do_not_break() {
         }
     }
 }
+
+/// North turns counter-clockwise from +y: at 90 degrees it points to -x.
+#[test]
+fn a_turned_north_has_a_pointer_of_its_own() {
+    let shell = room();
+    let drawn = |north_deg| plan(&PlanPicture { north_deg, ..shell.picture(&[]) });
+    for north_deg in [0.0, 360.0, -360.0] {
+        let words = texts(&drawn(north_deg));
+        assert!(words.contains(&"y, north".to_owned()) && !words.contains(&"north".to_owned()));
+    }
+    for (north_deg, towards) in
+        [(90.0, [-1.0, 0.0]), (-90.0, [1.0, 0.0]), (180.0, [0.0, 1.0]), (45.0, [-0.707, -0.707])]
+    {
+        let drawing = drawn(north_deg);
+        let words = texts(&drawing);
+        assert!(words.contains(&"y".to_owned()) && !words.contains(&"y, north".to_owned()));
+        let middle =
+            DVec2::from(Contents::new(&shell.picture(&[]), TOP_PX).layout.corner.corner_px)
+                + DVec2::new(152.0, 44.0 + 5.0);
+        let place = drawing.shapes.iter().find_map(|shape| match shape {
+            Shape::Text { place_px, text, .. } if text == "north" => Some(DVec2::from(*place_px)),
+            _ => None,
+        });
+        let way = (place.expect("a word") - middle).normalize();
+        assert!(way.distance(DVec2::from(towards)) < 0.01, "{north_deg}: {way}");
+    }
+}

@@ -1,0 +1,129 @@
+//! The document of a year, format "quasilux-annual/1".
+//!
+//! `hours` counts the intervals of the weather file; shares of hours are of the occupied ones. Each
+//! measure of a point has its half-width beside it. Of the shares of points `low` counts the points
+//! whose interval is on the right side of the threshold as a whole, `high` those whose interval
+//! reaches there.
+
+use super::measures::Measure;
+use super::point::PointSummary;
+use super::report::{AnnualReport, AnnualRun, SensorPoints};
+use super::sensor::{SensorOfYear, ShareOfPoints};
+use crate::json::text;
+use serde::Serialize;
+use serde_json::{Map, Value, json};
+
+/// Name and version of the format.
+const FORMAT: &str = "quasilux-annual/1";
+
+#[derive(Serialize)]
+struct Document<'a> {
+    format: &'static str,
+    complete: bool,
+    tolerance_reached: bool,
+    site: Value,
+    hours: Value,
+    thresholds: Value,
+    sensors: Vec<SensorEntry<'a>>,
+    run: Value,
+    warnings: &'a [String],
+}
+
+#[derive(Serialize)]
+struct SensorEntry<'a> {
+    name: &'a str,
+    points: Vec<Map<String, Value>>,
+    summary: Value,
+}
+
+/// The document, a line a sensor point.
+#[must_use]
+pub fn annual_json(report: &AnnualReport<'_>) -> String {
+    let run = &report.run;
+    let calendar = report.calendar;
+    let sensors = report.sensors().zip(report.summaries()).map(|(of, summary)| {
+        let SensorPoints { sensor, points } = of;
+        let places = sensor.points();
+        let points = places.iter().zip(points).map(|(place, point)| {
+            let mut entry = Map::new();
+            entry.insert("position".to_owned(), json!(place.position.to_array()));
+            entry.insert("normal".to_owned(), json!(place.normal.to_array()));
+            fill(&mut entry, point);
+            entry
+        });
+        SensorEntry { name: &sensor.name, points: points.collect(), summary: summary_of(&summary) }
+    });
+    text(&Document {
+        format: FORMAT,
+        complete: run.work.is_complete,
+        tolerance_reached: report.is_done(),
+        site: json!({
+            "place": report.place,
+            "latitude_deg": report.site.latitude_deg(),
+            "longitude_deg": report.site.longitude_deg(),
+            "time_zone_h": report.site.time_zone_h(),
+        }),
+        hours: json!({
+            "intervals": calendar.intervals.len(),
+            "interval_h": calendar.interval_h,
+            "unknown": calendar.count(|it| !it.is_known),
+            "lit": calendar.skies.len(),
+            "occupied": calendar.count(|it| it.is_occupied),
+            "daylit": calendar.count(|it| it.is_daylit),
+            "occupied_h": [report.occupied_h.start, report.occupied_h.end],
+        }),
+        thresholds: json!({
+            "enough_lx": report.thresholds.enough_lx,
+            "useful_lx": report.thresholds.useful_lx,
+            "sunlight_lx": report.thresholds.sunlight_lx,
+        }),
+        sensors: sensors.collect(),
+        run: run_entry(run),
+        warnings: &run.warnings,
+    })
+}
+
+/// What it was made of.
+fn run_entry(run: &AnnualRun) -> Value {
+    json!({
+        "version": run.version,
+        "scene_sha256": run.scene_sha256,
+        "rel_tol": run.settings.rel_tol,
+        "confidence": run.settings.confidence,
+        "replicates": run.settings.effective_replicates(),
+        "seed": run.settings.seed,
+        "sequence": run.settings.sequence.name(),
+        "max_bounces": run.settings.max_bounces,
+        "rays": run.work.rays,
+        "paths": run.work.paths,
+        "seconds": run.seconds,
+        "threads": run.threads,
+    })
+}
+
+fn fill(entry: &mut Map<String, Value>, point: &PointSummary) {
+    for (measure, figure) in Measure::ALL.iter().zip(&point.measures) {
+        entry.insert(measure.name().to_owned(), json!(figure.value));
+        entry.insert(format!("{}_half_width", measure.name()), json!(figure.half_width));
+    }
+    entry.insert(
+        "hours".to_owned(),
+        json!({
+            "surely_above": point.hours.above,
+            "surely_below": point.hours.below,
+            "undecided": point.hours.undecided,
+        }),
+    );
+    entry.insert("relative_half_width".to_owned(), json!(point.relative_half_width));
+    entry.insert("samples".to_owned(), json!(point.samples));
+}
+
+fn summary_of(summary: &SensorOfYear) -> Value {
+    let share = |it: ShareOfPoints| json!({ "value": it.value, "low": it.low, "high": it.high });
+    json!({
+        "sda": share(summary.autonomy),
+        "ase": share(summary.sunlight),
+        "en17037_level": summary.en17037_level,
+        "en17037_level_bounds": summary.en17037_bounds,
+    })
+}

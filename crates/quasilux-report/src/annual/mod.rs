@@ -1,0 +1,26 @@
+//! What the hours of a year are to those who judge them: autonomy, useful illuminances, sunlight
+//! and exposure, each with its interval.
+//!
+//! [`Calendar`] says which hours count, [`point`](PointOfHours) what one sensor point has of them,
+//! and [`sensor`](SensorOfYear) what all points of a sensor have together; [`AnnualReport`] has it
+//! all, for the document, the table, the spreadsheets and the pictures.
+
+mod calendar;
+mod csv;
+mod document;
+mod measures;
+mod picture;
+mod point;
+mod report;
+mod sensor;
+mod table;
+
+pub use calendar::{Calendar, Interval};
+pub use csv::{annual_csv, hours_csv};
+pub use document::annual_json;
+pub use measures::{Measure, Thresholds};
+pub use picture::{AnnualMap, annual_maps, hours_png};
+pub use point::{HourCounts, PointOfHours, PointSummary};
+pub use report::{AnnualReport, AnnualRun, SensorPoints};
+pub use sensor::{SensorOfYear, ShareOfPoints};
+pub use table::annual_table;

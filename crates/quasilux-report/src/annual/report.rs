@@ -1,0 +1,122 @@
+//! All results of a year.
+
+use super::calendar::Calendar;
+use super::measures::Thresholds;
+use super::point::PointSummary;
+use super::sensor::SensorOfYear;
+use quasilux_scene::{Scene, Sensor};
+use quasilux_sky::{Site, Weather};
+use quasilux_transport::{Settings, YearWork};
+use std::ops::Range;
+
+/// What a year was made of.
+#[derive(Clone, Debug)]
+pub struct AnnualRun {
+    /// The version of the program.
+    pub version: String,
+    /// SHA-256 of all that the scene was read from.
+    pub scene_sha256: String,
+    /// How long it took, in s.
+    pub seconds: f64,
+    /// On so many threads.
+    pub threads: usize,
+    /// The settings.
+    pub settings: Settings,
+    /// What it took.
+    pub work: YearWork,
+    /// What a reader should know.
+    pub warnings: Vec<String>,
+}
+
+/// A sensor with what its points have of the year, as far as they were simulated.
+#[derive(Clone, Copy, Debug)]
+pub struct SensorPoints<'a> {
+    /// The sensor.
+    pub sensor: &'a Sensor,
+    /// Its points.
+    pub points: &'a [PointSummary],
+}
+
+/// The results of a year.
+#[derive(Clone, Debug)]
+pub struct AnnualReport<'a> {
+    /// The scene with its sensors.
+    pub scene: &'a Scene,
+    /// What the weather file calls the place.
+    pub place: &'a str,
+    /// Where it is.
+    pub site: Site,
+    /// The hours.
+    pub calendar: &'a Calendar,
+    /// When people are there, in h of the clock.
+    pub occupied_h: Range<f64>,
+    /// What illuminances were compared with.
+    pub thresholds: Thresholds,
+    /// All points, through all sensors.
+    pub points: Vec<PointSummary>,
+    /// By sensor, the mean illuminance over its points in lx, interval by interval.
+    pub mean_lx: Vec<Vec<f64>>,
+    /// What it was made of.
+    pub run: AnnualRun,
+}
+
+impl<'a> AnnualReport<'a> {
+    /// Each sensor with its points.
+    pub fn sensors(&self) -> impl Iterator<Item = SensorPoints<'_>> {
+        let mut first = 0;
+        self.scene.sensors.iter().map(move |sensor| {
+            let own = first..(first + sensor.len()).min(self.points.len());
+            first += sensor.len();
+            SensorPoints { sensor, points: self.points.get(own).unwrap_or_default() }
+        })
+    }
+
+    /// What each sensor has of the year.
+    pub fn summaries(&self) -> impl Iterator<Item = SensorOfYear> {
+        self.sensors().map(|of| SensorOfYear::new(of.points))
+    }
+
+    /// Whether all points reached the tolerance.
+    #[must_use]
+    pub fn is_done(&self) -> bool {
+        self.run.work.is_complete && self.points.iter().all(|point| point.is_done)
+    }
+
+    /// A report without results.
+    #[must_use]
+    pub fn begin(
+        scene: &'a Scene,
+        weather: &'a Weather,
+        calendar: &'a Calendar,
+        occupied_h: Range<f64>,
+        run: AnnualRun,
+    ) -> Self {
+        let hours = calendar.intervals.len();
+        Self {
+            scene,
+            place: &weather.place,
+            site: weather.site,
+            calendar,
+            occupied_h,
+            thresholds: Thresholds::default(),
+            points: Vec::new(),
+            mean_lx: vec![vec![0.0; hours]; scene.sensors.len()],
+            run,
+        }
+    }
+
+    /// Adds the next point.
+    pub fn push(&mut self, summary: PointSummary, illuminance_lx: &[f32]) {
+        let mut number = self.points.len();
+        for (sensor, mean_lx) in self.scene.sensors.iter().zip(&mut self.mean_lx) {
+            if number < sensor.len() {
+                let share = 1.0 / sensor.len() as f64;
+                let hours = mean_lx.iter_mut().zip(illuminance_lx);
+                hours.for_each(|(mean, lx)| *mean += share * f64::from(*lx));
+                break;
+            }
+            number -= sensor.len();
+        }
+        self.points.push(summary);
+    }
+}

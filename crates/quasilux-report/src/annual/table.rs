@@ -1,0 +1,95 @@
+//! The results of a year for a terminal.
+
+use super::measures::Measure;
+use super::point::PointSummary;
+use super::report::{AnnualReport, SensorPoints};
+use super::sensor::{SensorOfYear, ShareOfPoints};
+use crate::number::count;
+use std::fmt::Write;
+
+/// Names of the levels of EN 17037.
+const LEVELS: [&str; 4] = ["none", "minimum", "medium", "high"];
+
+/// The table.
+#[must_use]
+pub fn annual_table(report: &AnnualReport<'_>) -> String {
+    let calendar = report.calendar;
+    let mut text = format!(
+        "{}: {} intervals of {} h, {} of them occupied ({} to {} h)",
+        report.place,
+        count(calendar.intervals.len() as u64),
+        calendar.interval_h,
+        count(calendar.count(|it| it.is_occupied) as u64),
+        report.occupied_h.start,
+        report.occupied_h.end,
+    );
+    let unknown = calendar.count(|it| !it.is_known);
+    if unknown > 0 {
+        write!(text, ", {} unknown and left out", count(unknown as u64)).expect("strings grow");
+    }
+    text.push_str("\n\n");
+    for (SensorPoints { sensor, points }, summary) in report.sensors().zip(report.summaries()) {
+        write_sensor(&mut text, &sensor.name, points, &summary);
+    }
+    let worst = report.points.iter().filter_map(|point| point.relative_half_width);
+    let worst = worst.fold(0.0, f64::max);
+    let reached = if report.is_done() { "" } else { " (not all within the tolerance)" };
+    writeln!(
+        text,
+        "hours known to {:.2} % or better (rms of half-widths at {:.0} %), {} replicates{reached}; \
+         {} rays, {:.1} s",
+        100.0 * worst,
+        100.0 * report.run.settings.confidence,
+        report.run.settings.effective_replicates(),
+        count(report.run.work.rays),
+        report.run.seconds,
+    )
+    .expect("strings grow");
+    for warning in &report.run.warnings {
+        writeln!(text, "warning: {warning}").expect("strings grow");
+    }
+    text
+}
+
+fn write_sensor(text: &mut String, name: &str, points: &[PointSummary], summary: &SensorOfYear) {
+    let mean = |measure: Measure| {
+        let values = points.iter().filter_map(|point| point.measure(measure).value);
+        values.sum::<f64>() / points.len().max(1) as f64
+    };
+    let percent = |measure| format!("{:.1} %", 100.0 * mean(measure));
+    let useful = format!(
+        "{} below 100 lx, {} to 300 lx, {} to 3000 lx, {} above",
+        percent(Measure::TooLittle),
+        percent(Measure::Supplementary),
+        percent(Measure::Autonomous),
+        percent(Measure::TooMuch),
+    );
+    let lines = [
+        ("sDA (300 lx, 50 %)", share_text(summary.autonomy)),
+        ("ASE (1000 lx, 250 h)", share_text(summary.sunlight)),
+        ("EN 17037", level_text(summary)),
+        ("mean DA", percent(Measure::Autonomy)),
+        ("mean cDA", percent(Measure::ContinuousAutonomy)),
+        ("mean UDI", useful),
+        ("mean exposure", format!("{:.0} klx h a year", 1e-3 * mean(Measure::Exposure))),
+    ];
+    writeln!(text, "{name} ({} points)", count(points.len() as u64)).expect("strings grow");
+    for (what, value) in lines {
+        writeln!(text, "  {what:<22}{value}").expect("strings grow");
+    }
+    text.push('\n');
+}
+
+fn share_text(share: ShareOfPoints) -> String {
+    let ShareOfPoints { value, low, high } = share;
+    let percent = |share: f64| 100.0 * share;
+    format!("{:.1} % of points ({:.1} to {:.1} %)", percent(value), percent(low), percent(high))
+}
+
+fn level_text(summary: &SensorOfYear) -> String {
+    let name = |level: u8| LEVELS[usize::from(level).min(LEVELS.len() - 1)];
+    let [low, high] = summary.en17037_bounds;
+    let bounds =
+        if low == high { "surely".to_owned() } else { format!("{} to {}", name(low), name(high)) };
+    format!("level {} ({bounds})", name(summary.en17037_level))
+}

@@ -1,0 +1,173 @@
+//! Places of the sun that light is asked from together, for hours that are told later.
+
+use crate::lights::outside::OutsideLight;
+use crate::spectrum::Spectrum;
+use crate::world::vertex::Vertex;
+use crate::world::visibility::LightSample;
+use glam::{DVec3, Vec3};
+
+/// So many of the places that a vertex may see through the openings are asked.
+const ASKED_THROUGH: usize = 4;
+
+/// Directions in which the sun may stand.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Suns {
+    /// Unit vectors towards them.
+    directions: Vec<DVec3>,
+    /// The same by coordinate, for who looks at all of them.
+    coordinates: [Vec<f32>; 3],
+}
+
+/// Numbers of suns above the horizon of a vertex; working space.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct SunChoice {
+    /// What each sun is to the vertex.
+    sides: Vec<u8>,
+    /// The suns behind an opening.
+    through: Vec<u32>,
+    /// How many of the others there are.
+    beside: usize,
+}
+
+/// Suns above the horizon of a vertex, and those behind an opening; 0 for those below.
+const BESIDE: u8 = 1;
+const THROUGH: u8 = 3;
+/// Suns so little below the horizon, by the cosine, may be above in double precision.
+const ROUNDING: f32 = 1e-6;
+
+/// The light of one of the suns, of 1 lx on a plane across its rays.
+pub(crate) struct SunSample<S> {
+    pub(crate) sun: u32,
+    pub(crate) light_sample: LightSample<S>,
+}
+
+impl Suns {
+    /// Adds one.
+    pub(crate) fn push(&mut self, direction: DVec3) {
+        self.directions.push(direction);
+        let coordinates = direction.to_array();
+        self.coordinates.iter_mut().zip(coordinates).for_each(|(all, x)| all.push(x as f32));
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        self.directions.len()
+    }
+
+    /// Marks the suns below a horizon.
+    fn lower(&self, n: Vec3, sides: &mut [u8]) {
+        let [x, y, z] = &self.coordinates;
+        for (((side, x), y), z) in sides.iter_mut().zip(x).zip(y).zip(z) {
+            // Without branches, many at once.
+            *side *= u8::from(n.x * x + n.y * y + n.z * z > -ROUNDING);
+        }
+    }
+
+    /// Some of the suns, each with its chance: those that stand behind an opening, and one of the
+    /// others, which may shine through what is no opening: openings need not be complete.
+    pub(crate) fn samples<S: Spectrum>(
+        &self,
+        outside: &OutsideLight<'_>,
+        vertex: &Vertex<'_, S>,
+        u: f64,
+        choice: &mut SunChoice,
+        mut take: impl FnMut(SunSample<S>),
+    ) {
+        choice.sort(self, outside, vertex);
+        let mut ask = |sun: u32, one_in: f64| {
+            let direction = self.directions[sun as usize];
+            let lx = one_in * vertex.cos(direction).max(0.0);
+            let light = vertex.weight(direction) * lx;
+            let sample = LightSample::unless_dark(direction, outside.beyond_m(), light, lx);
+            if let Some(light_sample) = sample {
+                take(SunSample { sun, light_sample });
+            }
+        };
+        let SunChoice { sides, through, beside } = choice;
+        let asked = through.len().min(ASKED_THROUGH);
+        let one_in = through.len() as f64 / asked.max(1) as f64;
+        for k in 0..asked {
+            let place = ((u + k as f64) * one_in) as usize;
+            ask(through[place.min(through.len() - 1)], one_in);
+        }
+        let place = ((u * *beside as f64) as usize).min(beside.saturating_sub(1));
+        let mut others = (0_u32..).zip(&*sides).filter(|(_, side)| **side == BESIDE);
+        if let Some((sun, _)) = others.nth(place) {
+            ask(sun, *beside as f64);
+        }
+    }
+}
+
+impl SunChoice {
+    /// Tells the suns behind an opening from the others above the horizon of a vertex.
+    fn sort<S: Spectrum>(&mut self, suns: &Suns, outside: &OutsideLight<'_>, v: &Vertex<'_, S>) {
+        let Self { sides, through, beside } = self;
+        sides.clear();
+        sides.resize(suns.len(), if outside.has_portals() { BESIDE } else { THROUGH });
+        for corners in outside.portal_corners() {
+            let cone = Cone::new(corners.map(|corner| corner - v.position()));
+            cone.into_iter().for_each(|cone| cone.find(suns, sides));
+        }
+        if let Some(n) = v.only_side() {
+            suns.lower(n.as_vec3(), sides);
+        }
+        through.clear();
+        let numbered = (0..).zip(&*sides);
+        through.extend(numbered.filter(|(_, side)| **side == THROUGH).map(|(sun, _)| sun));
+        *beside = sides.iter().filter(|side| **side == BESIDE).count();
+    }
+}
+
+/// The directions of a triangle, seen from the origin. Single precision will do: who counts as
+/// behind the triangle only has other chances to be asked.
+struct Cone {
+    /// Inward normals of the planes through its edges.
+    normals: [Vec3; 3],
+}
+
+impl Cone {
+    /// `None` edge-on.
+    fn new([a, b, c]: [DVec3; 3]) -> Option<Self> {
+        let normals = [a.cross(b), b.cross(c), c.cross(a)];
+        let volume = normals[0].dot(c);
+        let inward = |n: DVec3| (n * volume.signum()).normalize_or_zero().as_vec3();
+        (volume != 0.0).then(|| Self { normals: normals.map(inward) })
+    }
+
+    /// Marks the suns in it.
+    fn find(&self, suns: &Suns, sides: &mut [u8]) {
+        let [l, m, n] = self.normals;
+        let [x, y, z] = &suns.coordinates;
+        for (((side, x), y), z) in sides.iter_mut().zip(x).zip(y).zip(z) {
+            let along = |n: Vec3| n.x * x + n.y * y + n.z * z;
+            let is_in = (along(l) >= 0.0) & (along(m) >= 0.0) & (along(n) >= 0.0);
+            *side |= THROUGH * u8::from(is_in);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cones_hold_what_goes_through_their_triangle() {
+        let corners =
+            [DVec3::new(-1.0, 2.0, 0.0), DVec3::new(2.0, 2.0, 0.0), DVec3::new(0.0, 3.0, 2.0)];
+        let [a, b, c] = corners;
+        for corners in [[a, b, c], [b, a, c]] {
+            let cone = Cone::new(corners).unwrap();
+            let holds = |direction: DVec3| {
+                let mut suns = Suns::default();
+                suns.push(direction.normalize());
+                let mut sides = [0];
+                cone.find(&suns, &mut sides);
+                sides[0] == THROUGH
+            };
+            assert!(holds(a + b + c) && !holds(-(a + b + c)));
+            for [away, p, q] in [[a, b, c], [b, c, a], [c, a, b]] {
+                assert!(holds(p + q + 0.01 * away) && !holds(p + q - 0.01 * away));
+            }
+        }
+        assert!(Cone::new([a, b, a + b]).is_none());
+    }
+}

@@ -1,0 +1,33 @@
+//! What can be said to `quasilux annual`.
+
+use super::OutputArguments;
+use super::values::{hours_of_day, level, share, whole};
+use clap::Args;
+use std::ops::Range;
+use std::path::PathBuf;
+
+#[derive(Debug, Args)]
+pub(crate) struct AnnualArguments {
+    /// The project file, with [weather]
+    pub(crate) project: PathBuf,
+    /// Wanted root mean square over hours of half-width over value, like 1% or 0.01
+    #[arg(long, value_name = "SHARE", value_parser = share, default_value = "2%")]
+    pub(crate) rel_tol: f64,
+    /// Confidence level of the intervals, like 95% or 0.99
+    #[arg(long, value_name = "SHARE", value_parser = level)]
+    pub(crate) confidence: Option<f64>,
+    /// Paths of each sensor point in each replicate, at most
+    #[arg(long, value_name = "N", value_parser = whole::<u64>(1..=1 << 30))]
+    pub(crate) samples: Option<u64>,
+    /// When people are there, by the clock of the site, all days
+    #[arg(long, value_name = "FROM-TO", value_parser = hours_of_day, default_value = "8-18")]
+    pub(crate) occupied: Range<f64>,
+    /// Number of threads [default: all cores]
+    #[arg(long, value_name = "N", value_parser = whole::<u16>(1..=1024))]
+    pub(crate) threads: Option<u16>,
+    /// Seed of all randomisations [default: the project's, or else 1]
+    #[arg(long, value_name = "N", value_parser = whole::<u64>(0..=u64::MAX))]
+    pub(crate) seed: Option<u64>,
+    #[command(flatten)]
+    pub(crate) output: OutputArguments,
+}

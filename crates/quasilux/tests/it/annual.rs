@@ -1,0 +1,109 @@
+//! `quasilux annual`: the hours of weather files.
+
+use crate::support::{Folder, number, parsed};
+
+/// A day and a bit more, hour by hour: illuminances of sun and sky at noon, and nothing known but
+/// darkness else.
+fn weather() -> String {
+    let mut text = "place Here\nlatitude 37.72\nlongitude 122.22\ntime_zone 120\n\
+        site_elevation 2\nweather_data_file_units 3\n"
+        .to_owned();
+    for day in 20..22 {
+        for hour in 0..24 {
+            let light = match (day, hour) {
+                (20, 11) => "0 9000",
+                (20, 12) => "60000 12000",
+                (21, 12) => "0 250",
+                _ => "0 0",
+            };
+            text += &format!("3 {day} {hour}.5 {light}\n");
+        }
+    }
+    text
+}
+
+const FLOOR: &str = "o floor\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
+
+fn folder(name: &str, rest: &str) -> Folder {
+    let folder = Folder::new(name);
+    folder.write("floor.obj", FLOOR);
+    folder.write("site.wea", weather());
+    let project = format!(
+        "[scene]\ngeometry = [\"floor.obj\"]\n{rest}\n[[sensors]]\nname = \"roof\"\n\
+         kind = \"grid\"\norigin = [0.25, 0.25, 1]\nu = [0.5, 0, 0]\nv = [0, 0.5, 0]\n\
+         counts = [2, 1]\nnormal = [0, 0, 1]\n"
+    );
+    folder.write("a.toml", project);
+    folder
+}
+
+const WEATHER: &str = "[weather]\nfile = \"site.wea\"\n[sky]\nmodel = \"weather\"\n";
+
+/// Under an open sky illuminances are those of the file, and so are all measures.
+#[test]
+fn hours_under_the_open_sky_are_those_of_the_file() {
+    let folder = folder("annual_open", WEATHER);
+    let done = folder.quasilux(&["annual", "a.toml", "--out", "out", "--rel-tol", "1%"]);
+    assert_eq!(done.code, Some(0), "{}", done.stderr);
+    assert!(done.stdout.contains("sDA (300 lx, 50 %)"), "{}", done.stdout);
+    let hours = folder.read("out/hours.csv");
+    let rows: Vec<Vec<&str>> = hours.lines().skip(1).map(|row| row.split(',').collect()).collect();
+    assert_eq!(rows.len(), 48);
+    let figure = |row: usize, column: usize| rows[row][column].parse::<f64>().unwrap();
+    for (row, lx) in [(10, 0.0), (11, 9000.0), (36, 250.0)] {
+        assert!((figure(row, 8) - lx).abs() <= 0.01 * lx, "{row}: {}", figure(row, 8));
+    }
+    let sine = libm::sin(figure(12, 4).to_radians());
+    let noon = 12_000.0 + 60_000.0 * sine;
+    assert!((figure(12, 8) / noon - 1.0).abs() < 0.005, "{} not {noon}", figure(12, 8));
+    let document = parsed(&folder.read("out/annual.json"));
+    let point = |key: &str| number(&document, &format!("/sensors/0/points/1/{key}"));
+    // Of 20 occupied hours two have more than 300 lx, and one has a part of it.
+    assert!((point("daylight_autonomy") - 0.1).abs() < 1e-12);
+    assert!((point("continuous_daylight_autonomy") - (2.0 + 250.0 / 300.0) / 20.0).abs() < 1e-3);
+    assert!((point("udi_supplementary") - 0.05).abs() < 1e-12);
+    assert!((point("udi_too_much") - 0.1).abs() < 1e-12);
+    assert_eq!((point("sunlit_hours"), point("hours/undecided")), (1.0, 0.0));
+    let exposure = noon + 9000.0 + 250.0;
+    assert!((point("exposure_lx_h") / exposure - 1.0).abs() < 0.005);
+    assert_eq!(number(&document, "/sensors/0/summary/sda/value"), 0.0);
+    for name in ["roof.annual.csv", "roof.hours.png", "roof.daylight_autonomy.png"] {
+        assert!(folder.path(&format!("out/{name}")).exists(), "{name}");
+    }
+    let bytes = std::fs::read(folder.path("out/hours.npy")).unwrap();
+    assert_eq!(bytes.len(), 128 + 4 * 2 * 2 * 48);
+    let value = |index: usize| {
+        let at = 128 + 4 * index;
+        f32::from_le_bytes(bytes[at..at + 4].try_into().unwrap())
+    };
+    assert!((value(12) - value(2 * 48 + 12)).abs() < 0.005 * value(12), "two points, one sky");
+    assert!((f64::from(value(12)) / noon - 1.0).abs() < 0.005 && value(48 + 12) < value(12) * 0.01);
+}
+
+#[test]
+fn what_has_no_year_is_refused() {
+    let uniform = "[sky]\nmodel = \"uniform\"\nhorizontal_illuminance_lx = 100\n";
+    for (name, rest, more, needle) in [
+        ("annual_no_weather", uniform, &[][..], "no weather; expected [weather] with file"),
+        ("annual_hours", WEATHER, &["--occupied", "18-8"], "expected hours of a day, like 8-18"),
+        ("annual_tolerance", WEATHER, &["--rel-tol", "0"], "expected a share"),
+    ] {
+        let refused = folder(name, rest).quasilux(&[&["annual", "a.toml"], more].concat());
+        assert_eq!(refused.code, Some(2), "{name}: {}", refused.stdout);
+        assert!(refused.stderr.contains(needle), "{name}: {}", refused.stderr);
+    }
+}
+
+/// A limit ends a year before its tolerance, and threads change no bit of it.
+#[test]
+fn limits_and_threads() {
+    let folder = folder("annual_limits", WEATHER);
+    let run = |threads: &str, out: &str| {
+        let tolerance = ["--rel-tol", "0.0001", "--samples", "64", "--quiet"];
+        let named = ["annual", "a.toml", "--threads", threads, "--out", out];
+        let done = folder.quasilux(&[&named[..], &tolerance].concat());
+        assert_eq!((done.code, done.stdout.as_str()), (Some(3), ""), "{}", done.stderr);
+        std::fs::read(folder.path(&format!("{out}/hours.npy"))).unwrap()
+    };
+    assert_eq!(run("1", "one"), run("3", "three"));
+}
