@@ -90,7 +90,7 @@ fn an_even_sky_and_the_sun_light_a_plate_in_the_open() {
         let photons = found(&run(&scene, EstimatorKind::Photon, 1 << 14, seed));
         for (own, lx) in photons.into_iter().zip(expected) {
             let z = z(own, Found { lx, error: 1e-6 * lx });
-            assert!(z.abs() < 4.5 && own.error < 0.01 * lx, "{seed}: {own:?}, not {lx}");
+            assert!(z.abs() < 4.5 && own.error < 0.02 * lx, "{seed}: {own:?}, not {lx}");
         }
     }
 }
@@ -109,7 +109,7 @@ fn mean_through(
 }
 
 /// In black rooms, through openings that are named, panes that are found, and openings that nobody
-/// names: of 12 values none is 4.5 standard errors off, of at most 1 %, or 4 % where photons have
+/// names: of 12 values none is 4.5 standard errors off, of at most 1.5 %, or 4 % where photons have
 /// to find the opening.
 #[test]
 fn windows_give_the_integral_of_what_is_behind_them() {
@@ -139,7 +139,7 @@ fn windows_give_the_integral_of_what_is_behind_them() {
         for (own, cell) in photons.into_iter().zip(cells) {
             let passed = |cos| if is_glazed { clear_pane(cos) } else { 1.0 };
             let lx = mean_through(&window, &environment, passed, cell);
-            let most = if is_named || is_glazed { 0.01 } else { 0.04 };
+            let most = if is_named || is_glazed { 0.015 } else { 0.04 };
             let off = z(own, Found { lx, error: 1e-4 * lx });
             assert!(off.abs() < 4.5 && own.error < most * lx, "{number}: {own:?}, not {lx}");
         }
