@@ -1,8 +1,8 @@
 //! Lights: emission of photons, and direct light at surfaces. Area lights are sampled in
 //! `emitting_facets`: `facet_group` chooses a facet and a point on it, by `coarse_facets` and
-//! `seen_triangle`; luminaires with a luminous area in `area_luminaires`, lights without extent
-//! in `pointlike`, what mirrors show of both kinds in `images`; `selection` chooses one of several,
-//! by what `coarse_lights` says. What comes from outside, in `outside`, has no place; its photons
+//! `seen_triangle`; luminaires with a luminous area in `area_luminaires`, lights without extent in
+//! `pointlike`, what mirrors show of both kinds in `images`; `selection` chooses one of several, by
+//! what `coarse_lights` says. What comes from outside, in `outside`, has no place; its photons
 //! start where they come in.
 
 mod area_luminaires;
@@ -160,9 +160,9 @@ impl<'a> Lights<'a> {
         self.fluxes_lm[number]
     }
 
-    /// The density in m^-2 with which photons of one lamp, among those of all lamps, land straight on the side `n` of a
-    /// place, or on both, as if nothing stood in the way; of a luminaire with an area about that,
-    /// of emitting facets 0.
+    /// The density in m^-2 with which photons of one lamp, among those of all lamps, land straight
+    /// on the side `n` of a place, or on both, as if nothing stood in the way; of a luminaire with
+    /// an area about that, of emitting facets 0.
     pub(crate) fn landings_m2(
         &self,
         number: usize,

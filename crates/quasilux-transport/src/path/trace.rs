@@ -10,8 +10,7 @@
 //! are: the map is a control variate, its elements cause no bias, and no light is lost with those
 //! that end.
 //!
-//! Read on at `direct_light` for next-event estimation, at `map_end` for ends on maps, at
-//! `virtual_light` for what pixels get.
+//! Read on at `direct_light`, `map_end` (ends on maps) and `virtual_light` (what pixels get).
 
 mod connect;
 mod direct_light;

@@ -1,13 +1,13 @@
 //! Light tracing of one photon: emission, free flights, scattering, splitting and Russian roulette.
 //!
-//! Photons start with equal flux, but for those from outside, where it is only about equal. At each surface they survive with the probability that keeps
-//! their luminance: what is absorbed is absorbed whole, and on grey surfaces the weight never
-//! changes (Voloboy, Dmitriev and Kopylov 2003). Only rough surfaces, whose directions cannot be
-//! drawn in exact proportion, leave it slightly changed. Photons that are guided
-//! ([`crate::importance`]) leave each place with the weight that belongs to it instead, by one or
-//! more of them or none; and those that are connected to sensors all leave the first surface, with
-//! what absorption leaves. What goes on no more is counted as absorbed, whatever was due: so flux
-//! balances exactly, and as it should on average.
+//! Photons start with equal flux, but for those from outside, where it is only about equal. At each
+//! surface they survive with the probability that keeps their luminance: what is absorbed is
+//! absorbed whole, and on grey surfaces the weight never changes (Voloboy, Dmitriev and Kopylov
+//! 2003). Only rough surfaces, whose directions cannot be drawn in exact proportion, leave it
+//! slightly changed. Photons that are guided ([`crate::importance`]) leave each place with the
+//! weight that belongs to it instead, by one or more of them or none; and those that are connected
+//! to sensors all leave the first surface, with what absorption leaves. What goes on no more is
+//! counted as absorbed, whatever was due: so flux balances exactly, and as it should on average.
 
 use crate::bsdf::TransportMode;
 use crate::context::Context;

@@ -6,8 +6,8 @@
 //! through an opening that came up is dropped. So each line belongs to one of the two, and openings
 //! that stand elsewhere, or for a part, cost noise and no light. Either way directions of sky and
 //! ground are drawn by a table of the luminance times the size of what they are drawn through
-//! ([`super::directions`]), those of the sun over its disk. Every photon starts where its line comes
-//! into the box, so whatever stands before an opening shades it.
+//! ([`super::directions`]), those of the sun over its disk. Every photon starts where its line
+//! comes into the box, so whatever stands before an opening shades it.
 //!
 //! A photon carries `L S / p`, S being one over the density of its place across w and p that of the
 //! direction in sr^-1: about the flux of its way in, over the number of photons. How many take each
