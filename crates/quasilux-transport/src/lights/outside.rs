@@ -13,8 +13,8 @@
 mod apertures;
 mod directions;
 mod hull;
-mod looks;
 mod photons;
+mod views;
 
 pub(crate) use photons::{Beside, OutsidePhoton, OutsidePhotons};
 

@@ -28,13 +28,13 @@ fn run(scene: &Scene, estimator: EstimatorKind, samples: u64, seed: u64) -> Esti
 
 /// A mean with its standard error.
 #[derive(Clone, Copy, Debug)]
-struct Found {
+struct LuxWithError {
     lx: f64,
     error: f64,
 }
 
 /// Of all targets.
-fn found(estimates: &Estimates) -> Vec<Found> {
+fn found(estimates: &Estimates) -> Vec<LuxWithError> {
     let sensors = estimates.sensors.iter();
     let of_sensor = sensors.flat_map(|sensor| {
         let rows = &sensor.replicate_lx;
@@ -42,14 +42,14 @@ fn found(estimates: &Estimates) -> Vec<Found> {
             let n = rows.len() as f64;
             let lx = rows.iter().map(|row| row[point]).sum::<f64>() / n;
             let squares = rows.iter().map(|row| (row[point] - lx) * (row[point] - lx));
-            Found { lx, error: (squares.sum::<f64>() / (n * (n - 1.0))).sqrt() }
+            LuxWithError { lx, error: (squares.sum::<f64>() / (n * (n - 1.0))).sqrt() }
         })
     });
     of_sensor.collect()
 }
 
 /// Standard errors between what was found and what is expected.
-fn z(found: Found, expected: Found) -> f64 {
+fn z(found: LuxWithError, expected: LuxWithError) -> f64 {
     (found.lx - expected.lx) / libm::hypot(found.error, expected.error)
 }
 
@@ -89,7 +89,7 @@ fn an_even_sky_and_the_sun_light_a_plate_in_the_open() {
         let expected = [level_lx, level_lx, below_lx, upright_lx];
         let photons = found(&run(&scene, EstimatorKind::Photon, 1 << 14, seed));
         for (own, lx) in photons.into_iter().zip(expected) {
-            let z = z(own, Found { lx, error: 1e-6 * lx });
+            let z = z(own, LuxWithError { lx, error: 1e-6 * lx });
             assert!(z.abs() < 4.5 && own.error < 0.02 * lx, "{seed}: {own:?}, not {lx}");
         }
     }
@@ -140,7 +140,7 @@ fn windows_give_the_integral_of_what_is_behind_them() {
             let passed = |cos| if is_glazed { clear_pane(cos) } else { 1.0 };
             let lx = mean_through(&window, &environment, passed, cell);
             let most = if is_named || is_glazed { 0.015 } else { 0.04 };
-            let off = z(own, Found { lx, error: 1e-4 * lx });
+            let off = z(own, LuxWithError { lx, error: 1e-4 * lx });
             assert!(off.abs() < 4.5 && own.error < most * lx, "{number}: {own:?}, not {lx}");
         }
     }

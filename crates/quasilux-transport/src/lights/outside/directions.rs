@@ -14,7 +14,7 @@ const ROWS: usize = 96;
 const COLUMNS: usize = 96;
 /// Places along each axis of a cell at which the function is asked.
 const LOOKS: usize = 2;
-/// The part of the mean over all cells that each has beside its own: looks may miss something.
+/// The part of the mean over all cells that each has beside its own: views may miss something.
 const EVERYWHERE: f64 = 0.01;
 
 /// The solid angle of a cell in sr.
@@ -44,11 +44,11 @@ impl DirectionTable {
     pub(super) fn new(function: impl Fn(DVec3) -> f64) -> Option<Self> {
         let look = |number: usize| (number as f64 + 0.5) / LOOKS as f64;
         let mean = |row: usize, column: usize| {
-            let looks = (0..LOOKS * LOOKS).map(|number| {
+            let views = (0..LOOKS * LOOKS).map(|number| {
                 let (down, along) = (look(number / LOOKS), look(number % LOOKS));
                 function(direction_in(row as f64 + down, column as f64 + along))
             });
-            looks.sum::<f64>() / (LOOKS * LOOKS) as f64
+            views.sum::<f64>() / (LOOKS * LOOKS) as f64
         };
         let cells: Vec<f64> =
             (0..ROWS * COLUMNS).map(|cell| mean(cell / COLUMNS, cell % COLUMNS)).collect();

@@ -12,13 +12,13 @@
 //! A photon carries `L S / p`, S being one over the density of its place across w and p that of the
 //! direction in sr^-1: about the flux of its way in, over the number of photons. How many take each
 //! way is of no matter to the mean. Through openings come as many as the flux is, as far as short
-//! looks tell that it gets there; of all others as many as the sensors see of the outside past the
+//! views tell that it gets there; of all others as many as the sensors see of the outside past the
 //! openings, with a least share.
 
 use super::apertures::Apertures;
 use super::directions::DirectionTable;
 use super::hull::Hull;
-use super::looks::{Looks, view_past_openings};
+use super::views::{Views, view_past_openings};
 use super::{OutsideLight, SunDisk};
 use crate::spectrum::Spectrum;
 use crate::world::World;
@@ -29,7 +29,7 @@ use quasilux_scene::{Scene, SensorShape};
 const BESIDE_OPENINGS: [f64; 2] = [0.03, 0.9];
 /// Light from outside gets this many times the photons of the lamps at most, and lamps as many
 /// times those of it: either may be what the sensors see.
-const MOST_BESIDE_LAMPS: f64 = 4.0;
+const MAX_BESIDE_LAMPS: f64 = 4.0;
 /// Squares that count photons around sensor points reach so far at most, as a share of the scene.
 const AROUND_SENSORS: f64 = 1.0 / 16.0;
 /// Lines are followed from so many radii of the box.
@@ -96,15 +96,15 @@ impl OutsidePhotons {
         let corners = outside.portals.iter().flat_map(|portal| portal.corners.points());
         let distances_m = corners.map(|corner| corner.distance(hull.centre()));
         let reach_m = REACH * distances_m.fold(hull.radius_m(), f64::max);
-        let looks = Looks::new(outside, world);
+        let views = Views::new(outside, world);
         let apertures = |openness: &[[f64; 2]]| Apertures::new(&outside.portals, openness, reach_m);
-        let openings = apertures(&looks.of_sky());
+        let openings = apertures(&views.of_sky());
         let sun = outside.sun.as_ref();
         let mut ways: Vec<WayIn> = Vec::new();
         if outside.has_portals() {
-            ways.extend(WayIn::of_sky(outside, Gate::Openings(apertures(&looks.of_sky())), &hull));
+            ways.extend(WayIn::of_sky(outside, Gate::Openings(apertures(&views.of_sky())), &hull));
             let of_sun = |sun: &SunDisk| {
-                let gate = Gate::Openings(apertures(&looks.of_sun(sun.direction)));
+                let gate = Gate::Openings(apertures(&views.of_sun(sun.direction)));
                 WayIn::of_sun(sun, gate, &hull)
             };
             ways.extend(sun.and_then(of_sun));
@@ -120,7 +120,7 @@ impl OutsidePhotons {
         ways.extend(past);
         let all_lm: f64 = ways.iter().map(|way| way.counted_lm).sum();
         if beside.lamps_lm > 0.0 {
-            let [least, most] = [1.0 / MOST_BESIDE_LAMPS, MOST_BESIDE_LAMPS];
+            let [least, most] = [1.0 / MAX_BESIDE_LAMPS, MAX_BESIDE_LAMPS];
             scale_to(&mut ways, all_lm.clamp(least * beside.lamps_lm, most * beside.lamps_lm));
         }
         let shines = all_lm > 0.0 && all_lm.is_finite();

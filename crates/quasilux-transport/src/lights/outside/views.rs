@@ -1,4 +1,4 @@
-//! Short looks at what light from outside gets to: through each side of each opening, and to the
+//! Short views at what light from outside gets to: through each side of each opening, and to the
 //! sensors past all of them. They only say how many photons go where.
 
 use super::apertures::Apertures;
@@ -20,20 +20,20 @@ const RAYS: u64 = 1 << 16;
 const SENSORS: usize = 64;
 const RAYS_OF_A_SENSOR: u64 = 32;
 
-/// Looks out of openings.
-pub(super) struct Looks<'l, 'a, S> {
+/// Views out of openings.
+pub(super) struct Views<'l, 'a, S> {
     outside: &'l OutsideLight<'a>,
     world: &'l World<S>,
     rays_of_a_side: u64,
 }
 
-/// A ray that looks out, and what would come along it if nothing stood in the way.
+/// A ray that views out, and what would come along it if nothing stood in the way.
 struct Look {
     query: RayQuery,
     expected: f64,
 }
 
-impl<'l, 'a, S: Spectrum> Looks<'l, 'a, S> {
+impl<'l, 'a, S: Spectrum> Views<'l, 'a, S> {
     pub(super) fn new(outside: &'l OutsideLight<'a>, world: &'l World<S>) -> Self {
         let sides = 2 * outside.portals.len().max(1) as u64;
         Self { outside, world, rays_of_a_side: (RAYS / sides).clamp(1, RAYS_OF_A_SIDE) }
@@ -69,22 +69,22 @@ impl<'l, 'a, S: Spectrum> Looks<'l, 'a, S> {
 
     fn openness(&self, look: impl Fn(&Portal, DVec3, u64) -> Look) -> Vec<[f64; 2]> {
         let portals = self.outside.portals.iter();
-        let looks: Vec<Look> = portals
+        let views: Vec<Look> = portals
             .flat_map(|portal| [portal.n, -portal.n].map(|n| (portal, n)))
             .flat_map(|(portal, n)| {
                 let look = &look;
                 (0..self.rays_of_a_side).map(move |index| look(portal, n, index))
             })
             .collect();
-        let queries: Vec<RayQuery> = looks.iter().map(|look| look.query).collect();
+        let queries: Vec<RayQuery> = views.iter().map(|look| look.query).collect();
         let mut passages = Vec::new();
         transmittances(self.world, &queries, &mut passages);
-        let seen: Vec<f64> = looks
+        let seen: Vec<f64> = views
             .chunks(self.rays_of_a_side as usize)
             .zip(passages.chunks(self.rays_of_a_side as usize))
-            .map(|(looks, passages)| {
-                let expected: f64 = looks.iter().map(|look| look.expected).sum();
-                let open = looks.iter().zip(passages).filter(|(_, passage)| passage.is_some());
+            .map(|(views, passages)| {
+                let expected: f64 = views.iter().map(|look| look.expected).sum();
+                let open = views.iter().zip(passages).filter(|(_, passage)| passage.is_some());
                 let found: f64 = open.map(|(look, _)| look.expected).sum();
                 if expected > 0.0 { found / expected } else { 0.0 }
             })
