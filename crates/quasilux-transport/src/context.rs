@@ -180,7 +180,7 @@ impl<'a, S: Spectrum> Context<'a, S> {
         let prepared = scene.into();
         let scene = prepared.scene();
         let world = World::new(prepared, simd);
-        let lights = Lights::new(scene, &world);
+        let lights = Lights::new(scene, &world, settings.estimator);
         let images = SpecularImages::new(&world, &lights.pointlikes, settings.image_depth);
         let hides = images.hides(&world, &lights);
         let cut = lights.area_luminaires.cut_by_surfaces(&world);

@@ -101,10 +101,6 @@ pub(crate) fn settings(
     names_in_section(&mut settings, section, arguments)?;
     values_in_section(&mut settings, section);
     take_arguments(&mut settings, arguments)?;
-    let is_lit_from_outside = project.loaded.scene.environment.is_some();
-    if is_lit_from_outside && settings.estimator == EstimatorKind::Auto {
-        settings.estimator = EstimatorKind::Path;
-    }
     expect_an_end(project, &settings, arguments)?;
     let checked = quasilux_transport::check(&project.loaded.scene, &settings);
     checked.map_err(|error| CliError::in_file(&project.name, None, error))?;

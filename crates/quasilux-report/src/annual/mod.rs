@@ -14,6 +14,8 @@ mod point;
 mod report;
 mod sensor;
 mod table;
+#[cfg(test)]
+mod tests;
 
 pub use calendar::{Calendar, Interval};
 pub use csv::{annual_csv, hours_csv};

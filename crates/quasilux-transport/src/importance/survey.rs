@@ -265,15 +265,14 @@ impl Survey {
         let points = context.points(0, Stream::Survey(0));
         let fly = |index: u64| {
             let mut sampler = Sampler::new(&points, index);
-            let start =
-                context.lights.emit(&context.world, context.purposes, &mut sampler)?.emission;
-            Some(fly(context, start, &mut sampler))
+            let emitted = context.lights.emit(&context.world, context.purposes, &mut sampler)?;
+            Some((emitted.share, fly(context, emitted.emission, &mut sampler)))
         };
-        let flown: Vec<Option<Flown>> = (0..PHOTONS).into_par_iter().map(fly).collect();
-        for flown in flown.into_iter().flatten() {
+        let flown: Vec<Option<(f64, Flown)>> = (0..PHOTONS).into_par_iter().map(fly).collect();
+        for (share, flown) in flown.into_iter().flatten() {
             if let Some(Transition { cell, weight, .. }) = self.enter(context, flown) {
                 self.first_landings.resize(self.known.len(), 0.0);
-                self.first_landings[cell as usize] += weight / PHOTONS as f64;
+                self.first_landings[cell as usize] += share * weight / PHOTONS as f64;
             }
         }
     }

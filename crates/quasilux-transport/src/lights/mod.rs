@@ -1,8 +1,9 @@
 //! Lights: emission of photons, and direct light at surfaces. Area lights are sampled in
 //! `emitting_facets`: `facet_group` chooses a facet and a point on it, by `coarse_facets` and
-//! `seen_triangle`; luminaires with a luminous area in `area_luminaires`, lights without extent
-//! in `pointlike`, what mirrors show of both kinds in `images`; `selection` chooses one of several,
-//! by what `coarse_lights` says. What comes from outside, in `outside`, has no place.
+//! `seen_triangle`; luminaires with a luminous area in `area_luminaires`, lights without extent in
+//! `pointlike`, what mirrors show of both kinds in `images`; `selection` chooses one of several, by
+//! what `coarse_lights` says. What comes from outside, in `outside`, has no place; its photons
+//! start where they come in.
 
 mod area_luminaires;
 mod bright_sky;
@@ -28,11 +29,13 @@ pub(crate) use suns::{SunChoice, SunSample, Suns};
 
 use crate::lights::images::LightPathClass;
 use crate::purpose::{Purpose, PurposeRecorder};
+use crate::settings::EstimatorKind;
 use crate::spectrum::Spectrum;
 use crate::world::frame::Frame;
 use crate::world::{RayOrigin, World};
 use area_luminaires::place_m;
 use glam::DVec3;
+use outside::{Beside, OutsidePhoton, OutsidePhotons};
 use quasilux_sampling::warp::{sample_cosine_hemisphere, sample_uniform_sphere};
 use quasilux_sampling::{Discrete, Sampler};
 use quasilux_scene::{Light, Scene};
@@ -45,12 +48,20 @@ pub(crate) struct Lights<'a> {
     pub(crate) emitters: Option<Emitters>,
     /// The sky and the sun.
     pub(crate) outside: Option<OutsideLight<'a>>,
-    /// Over the point-like lights, the luminaires with an area, and past them all emitting facets
-    /// together.
+    /// How photons of these start.
+    outside_photons: Option<OutsidePhotons>,
+    /// Over the point-like lights, the luminaires with an area, past them all emitting facets
+    /// together, and past those the ways in from outside.
     by_flux: Option<Discrete>,
+    /// Over the lamps alone: what there is but for the ways in.
+    by_lamp_flux: Option<Discrete>,
     fluxes_lm: Vec<f64>,
-    /// Sum of their fluxes in lm, without what comes from outside.
+    /// Number of the first way in.
+    first_way_in: usize,
+    /// What all photons carry together, in lm: the sum of the fluxes of lamps and ways in.
     pub(crate) flux_lm: f64,
+    /// Of the lamps alone.
+    pub(crate) lamps_lm: f64,
 }
 
 /// A photon that has just left its light.
@@ -59,6 +70,8 @@ pub(crate) struct Emitted {
     pub(crate) light: usize,
     pub(crate) emission: Emission,
     pub(crate) path_class: LightPathClass,
+    /// Its flux over that of a photon of all lights: 1 but for light from outside.
+    pub(crate) share: f64,
 }
 
 /// A photon at the moment it leaves its light, or a surface.
@@ -77,16 +90,42 @@ pub(crate) struct Chosen {
 }
 
 impl<'a> Lights<'a> {
-    pub(crate) fn new<S: Spectrum>(scene: &'a Scene, world: &World<S>) -> Self {
+    /// All lights, for an estimator of this kind.
+    pub(crate) fn new<S: Spectrum>(
+        scene: &'a Scene,
+        world: &World<S>,
+        estimator: EstimatorKind,
+    ) -> Self {
         let pointlikes = PointLikes::new(scene, world.bounds());
         let area_luminaires = AreaLuminaires::new(scene, world.bounds());
         let emitters = Emitters::new(scene, world);
         let outside = OutsideLight::new(scene, world);
         let emitters_lm = emitters.as_ref().map_or(0.0, Emitters::flux_lm);
         let centred = pointlikes.iter().chain(area_luminaires.iter());
-        let fluxes_lm: Vec<f64> = centred.map(|light| light.flux_lm).chain([emitters_lm]).collect();
+        let mut fluxes_lm: Vec<f64> =
+            centred.map(|light| light.flux_lm).chain([emitters_lm]).collect();
+        let (by_lamp_flux, lamps_lm) = (Discrete::new(&fluxes_lm), fluxes_lm.iter().sum());
+        let outside_photons = outside.as_ref().and_then(|outside| {
+            // Elsewhere paths find what comes straight to sensors.
+            let counts_at_sensors = estimator == EstimatorKind::Photon;
+            OutsidePhotons::new(outside, scene, world, Beside { counts_at_sensors, lamps_lm })
+        });
+        let first_way_in = fluxes_lm.len();
+        fluxes_lm.extend(outside_photons.iter().flat_map(OutsidePhotons::fluxes_lm));
         let (by_flux, flux_lm) = (Discrete::new(&fluxes_lm), fluxes_lm.iter().sum());
-        Self { pointlikes, area_luminaires, emitters, outside, by_flux, fluxes_lm, flux_lm }
+        Self {
+            pointlikes,
+            area_luminaires,
+            emitters,
+            outside,
+            outside_photons,
+            by_flux,
+            by_lamp_flux,
+            fluxes_lm,
+            first_way_in,
+            flux_lm,
+            lamps_lm,
+        }
     }
 
     /// An illuminance in lx that is large for this scene: what each light gives, on average over
@@ -111,7 +150,7 @@ impl<'a> Lights<'a> {
         self.emitters.is_some() || self.outside.is_some()
     }
 
-    /// Number of lights, all emitting facets counted as one.
+    /// Number of lights, all emitting facets counted as one, and each way in from outside.
     pub(crate) fn len(&self) -> usize {
         self.fluxes_lm.len()
     }
@@ -121,9 +160,9 @@ impl<'a> Lights<'a> {
         self.fluxes_lm[number]
     }
 
-    /// The density in m^-2 with which photons of one light land straight on the side `n` of a
-    /// place, or on both, as if nothing stood in the way; of a luminaire with an area about that,
-    /// of emitting facets 0.
+    /// The density in m^-2 with which photons of one lamp, among those of all lamps, land straight
+    /// on the side `n` of a place, or on both, as if nothing stood in the way; of a luminaire with
+    /// an area about that, of emitting facets 0.
     pub(crate) fn landings_m2(
         &self,
         number: usize,
@@ -140,17 +179,19 @@ impl<'a> Lights<'a> {
         } else {
             0.0
         };
-        lx / self.flux_lm
+        lx / self.lamps_lm
     }
 
     /// How many coordinates lead a photon out: its light and direction, and its place where facets
-    /// emit. The place on a luminaire with an area comes after its direction and matters less.
+    /// emit, or where it comes in. The place on a luminaire with an area comes after its direction
+    /// and matters less.
     pub(crate) fn leading_dimensions(&self) -> u32 {
-        if self.emitters.is_some() { 4 } else { 2 }
+        if self.emitters.is_some() || self.outside_photons.is_some() { 4 } else { 2 }
     }
 
-    /// One photon of equal flux: the light in proportion to its flux, place and direction from the
-    /// light's own distribution. `None` only where nothing emits.
+    /// One photon of about equal flux: the light in proportion to its flux, place and direction
+    /// from the light's own distribution. `None` where nothing emits, and where what was drawn
+    /// carries nothing.
     ///
     /// The first two coordinates choose the light and its direction by superposition, however many
     /// lights there are; a photon of an area light or luminaire takes two more.
@@ -160,7 +201,26 @@ impl<'a> Lights<'a> {
         purposes: PurposeRecorder<'_>,
         sampler: &mut Sampler<'_>,
     ) -> Option<Emitted> {
-        let by_flux = self.by_flux.as_ref()?;
+        self.emit_by(self.by_flux.as_ref()?, world, purposes, sampler)
+    }
+
+    /// The same of the lamps alone, all of which together have [`Self::lamps_lm`].
+    pub(crate) fn emit_from_lamps<S: Spectrum>(
+        &self,
+        world: &World<S>,
+        purposes: PurposeRecorder<'_>,
+        sampler: &mut Sampler<'_>,
+    ) -> Option<Emitted> {
+        self.emit_by(self.by_lamp_flux.as_ref()?, world, purposes, sampler)
+    }
+
+    fn emit_by<S: Spectrum>(
+        &self,
+        by_flux: &Discrete,
+        world: &World<S>,
+        purposes: PurposeRecorder<'_>,
+        sampler: &mut Sampler<'_>,
+    ) -> Option<Emitted> {
         let (choice, u) = purposes.draw(sampler, Purpose::Emission, |sampler| {
             (sampler.choose_leading(by_flux), [sampler.remapped_1d(), sampler.next_1d()])
         });
@@ -191,7 +251,7 @@ impl<'a> Lights<'a> {
             let from = world.ray_origin_of_light(position, direction);
             let path_class = LightPathClass::Shown(number as u32);
             let emission = Emission { from, direction };
-            return Some(Emitted { light: number, emission, path_class });
+            return Some(Emitted { light: number, emission, path_class, share: 1.0 });
         }
         if let Some(luminaire) = self.area_luminaires.get(number - self.pointlikes.len()) {
             let towards = luminaire.photometry.sample_direction(u)?;
@@ -202,7 +262,17 @@ impl<'a> Lights<'a> {
                 light: number,
                 emission: Emission { from, direction },
                 path_class: LightPathClass::Straight,
+                share: 1.0,
             });
+        }
+        if let Some(way_in) = number.checked_sub(self.first_way_in) {
+            let (outside, photons) = self.outside.as_ref().zip(self.outside_photons.as_ref())?;
+            let OutsidePhoton { position, direction, share } =
+                photons.emit(outside, way_in, u, more())?;
+            let from = world.ray_origin_of_light(position, direction);
+            let emission = Emission { from, direction };
+            let path_class = LightPathClass::Outside;
+            return Some(Emitted { light: number, emission, path_class, share });
         }
         let place = self.emitters.as_ref()?.sample_point(world, u);
         let n = world.facets[place.facet as usize].front_normal;
@@ -210,6 +280,7 @@ impl<'a> Lights<'a> {
         let direction = Frame::around(n).to_world(local);
         let from = world.ray_origin_on_front(place.facet, place.position);
         let emission = Emission { from, direction };
-        Some(Emitted { light: number, emission, path_class: LightPathClass::Found })
+        let path_class = LightPathClass::Found;
+        Some(Emitted { light: number, emission, path_class, share: 1.0 })
     }
 }

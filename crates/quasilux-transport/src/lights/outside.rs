@@ -7,6 +7,16 @@
 //! noise and no light. The sun's disk is small: it is asked for, and found by rays alone that no
 //! place could ask along. Of the pixels of a panorama those that are much brighter than the others
 //! are asked for as often as openings are (`bright_sky`).
+//!
+//! How photons come in, see `photons`.
+
+mod apertures;
+mod directions;
+mod hull;
+mod photons;
+mod views;
+
+pub(crate) use photons::{Beside, OutsidePhoton, OutsidePhotons};
 
 use crate::lights::bright_sky::BrightSky;
 use crate::lights::seen_triangle::SeenTriangle;
@@ -171,7 +181,7 @@ impl<'a> OutsideLight<'a> {
         let lx_sr = self.luminance_cd_m2(direction) * cos;
         let illuminance_lx = lx_sr / (pdf_sr + beside_sr * (beside_sr / pdf_sr));
         let light = vertex.weight(direction) * illuminance_lx;
-        LightSample::unless_dark(direction, self.beyond_m, light, illuminance_lx)
+        self.light_sample_of(direction, light, illuminance_lx)
     }
 
     /// Density in sr^-1 with which [`Self::light_sample`] asks along a direction.
@@ -191,18 +201,24 @@ impl<'a> OutsideLight<'a> {
         u: [f64; 2],
     ) -> Option<LightSample<S>> {
         let sun = self.sun.as_ref()?;
-        let down = sun.solid_angle_sr / TAU * u[0];
-        let aside = (down * (2.0 - down)).sqrt();
-        let (sin, cos) = libm::sincos(TAU * u[1]);
-        let local = DVec3::new(aside * cos, aside * sin, 1.0 - down);
-        let direction = sun.frame.to_world(local);
+        let direction = sun.sample_direction(u);
         let cos = vertex.cos(direction);
         if cos <= 0.0 {
             return None;
         }
         let illuminance_lx = sun.luminance_cd_m2 * sun.solid_angle_sr * cos;
         let light = vertex.weight(direction) * illuminance_lx;
-        LightSample::unless_dark(direction, self.beyond_m, light, illuminance_lx)
+        self.light_sample_of(direction, light, illuminance_lx)
+    }
+
+    fn light_sample_of<S: Spectrum>(
+        &self,
+        direction: DVec3,
+        light: S,
+        illuminance_lx: f64,
+    ) -> Option<LightSample<S>> {
+        let sample = LightSample::unless_dark(direction, self.beyond_m, light, illuminance_lx)?;
+        Some(LightSample { is_from_outside: true, ..sample })
     }
 
     /// The portals as a place sees them.
@@ -254,6 +270,16 @@ impl<'a> OutsideLight<'a> {
     }
 }
 
+impl SunDisk {
+    /// A direction to it, evenly over its solid angle.
+    fn sample_direction(&self, u: [f64; 2]) -> DVec3 {
+        let down = self.solid_angle_sr / TAU * u[0];
+        let aside = (down * (2.0 - down)).sqrt();
+        let (sin, cos) = libm::sincos(TAU * u[1]);
+        self.frame.to_world(DVec3::new(aside * cos, aside * sin, 1.0 - down))
+    }
+}
+
 impl Seen {
     fn weight(seen: &Option<Self>) -> f64 {
         seen.as_ref().map_or(0.0, |seen| seen.weight)
@@ -266,5 +292,10 @@ impl Portal {
         let [a, b, c] = corners;
         let n = (b - a).cross(c - a).try_normalize()?;
         Some(Self { corners: Corners::new(corners), n })
+    }
+
+    fn area_m2(&self) -> f64 {
+        let [a, b, c] = self.corners.points();
+        0.5 * (b - a).cross(c - a).length()
     }
 }

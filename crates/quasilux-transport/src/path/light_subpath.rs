@@ -1,8 +1,8 @@
 //! Light subpaths: photons that leave every surface they come to a vertex that eye subpaths are
 //! connected to (Lafortune and Willems 1993, Veach and Guibas 1994).
 //!
-//! They leave the lights by flux, scatter as the surfaces do and end by Russian roulette: nothing
-//! guides them.
+//! They leave the lamps by flux, scatter as the surfaces do and end by Russian roulette: nothing
+//! guides them. What comes from outside eye subpaths find alone.
 
 use crate::bsdf::{Bsdf, TransportMode};
 use crate::context::Context;
@@ -113,15 +113,15 @@ impl<S: Spectrum> LightSubpaths<S> {
 impl<'p, S: Spectrum> LightSubpath<'p, S> {
     fn new(context: &Context<'_, S>, mut sampler: Sampler<'p>) -> Option<Self> {
         let Context { lights, world, purposes, .. } = context;
-        let Emitted { light, emission, path_class } =
-            lights.emit(world, *purposes, &mut sampler)?;
+        let Emitted { light, emission, path_class, .. } =
+            lights.emit_from_lamps(world, *purposes, &mut sampler)?;
         // Of light without a facet known where it lands.
         let (mut weights, mut image) = (SubpathWeights::SENSOR, None);
         if let Some(facet) = emission.from.facet() {
             let left_from = EmitterPlace { facet, position: emission.from.position() };
             let facet = &world.facets[facet as usize];
             let cos = facet.front_normal.dot(emission.direction);
-            let per_m2_sr = facet.emitted_cd_m2 * cos / lights.flux_lm;
+            let per_m2_sr = facet.emitted_cd_m2 * cos / lights.lamps_lm;
             weights = SubpathWeights::of_emission(per_m2_sr, cos);
             image = context.images.emitter(facet.material).map(|number| EmitterImage {
                 number,
@@ -131,7 +131,7 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
                 behind_panes: false,
             });
         }
-        let flux_lm = S::white() * lights.flux_lm;
+        let flux_lm = S::white() * lights.lamps_lm;
         let gain = Gain::NONE;
         Some(Self { sampler, start: emission, flux_lm, light, path_class, image, weights, gain })
     }
@@ -243,13 +243,13 @@ impl<S: Spectrum> LightSubpath<'_, S> {
                 let surface = Surface::new(world, at, self.start.direction);
                 let vertex = &Vertex::on(world, at, &surface, S::white());
                 let query = ImageQuery { world, pointlikes: &lights.pointlikes, who: 0, vertex };
-                Some(images.illuminance_lx(&query, image, &mut Links::default())? / lights.flux_lm)
+                Some(images.illuminance_lx(&query, image, &mut Links::default())? / lights.lamps_lm)
             }
             LightPathClass::Shown(_) | LightPathClass::Straight => {
                 let takes_both_sides = world.bsdf(at).transmits();
                 Some(lights.landings_m2(self.light, at.position, at.n, takes_both_sides))
             }
-            LightPathClass::Caustic | LightPathClass::Found => None,
+            LightPathClass::Outside | LightPathClass::Caustic | LightPathClass::Found => None,
         }
     }
 }

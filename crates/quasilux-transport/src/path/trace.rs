@@ -10,8 +10,7 @@
 //! are: the map is a control variate, its elements cause no bias, and no light is lost with those
 //! that end.
 //!
-//! Read on at `direct_light` for next-event estimation, at `map_end` for ends on maps, at
-//! `virtual_light` for what pixels get.
+//! Read on at `direct_light`, `map_end` (ends on maps) and `virtual_light` (what pixels get).
 
 mod connect;
 mod direct_light;
@@ -46,7 +45,7 @@ use crate::world::visibility::{Answer, ShadowQueue};
 use crate::world::{Interaction, RayOrigin};
 use connect::Connection;
 use glam::DVec3;
-use outside::AskedOutside;
+use outside::{AskedOutside, OutsideFactors, is_pane};
 use quasilux_bvh::RayQuery;
 use quasilux_sampling::Sampler;
 use quasilux_sampling::warp::sample_cosine_hemisphere;
@@ -99,6 +98,8 @@ pub(crate) struct Path<'p, S> {
     beta: S,
     /// The same for what the next surface emits itself.
     beta_emitted: S,
+    /// The same for light from outside.
+    beta_outside: OutsideFactors<S>,
     /// Bounces behind the light that its last vertex asks for.
     bounces_asked: u32,
     gain: Gain,
@@ -125,10 +126,17 @@ pub(crate) struct PathWork<S> {
 
 /// How a path goes on from a surface: factors on what the next surface sends.
 struct Onward {
-    /// On the light that the next surface emits itself.
+    /// On the light that the next surface emits itself, and on what comes straight from outside.
     emitted: f64,
+    /// On what comes from outside through panes.
+    past_panes: f64,
     /// On everything else; 0 ends the path there.
     everything: f64,
+}
+
+impl Onward {
+    /// For certain, with everything.
+    const ALL: Self = Self { emitted: 1.0, past_panes: 1.0, everything: 1.0 };
 }
 
 /// A path at a surface that it leaves again.
@@ -181,6 +189,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
             daylight: suns.map(Daylight::new),
             beta,
             beta_emitted: beta,
+            beta_outside: OutsideFactors { here: beta, past_panes: beta },
             bounces_asked: 0,
             gain: Gain::NONE,
             arrived: S::black(),
@@ -215,7 +224,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
         self.sample_direct_outside(context, &vertex, work);
         self.connect(context, &vertex, work);
         self.asked_outside =
-            self.pdf_sr.and_then(|pdf_sr| AskedOutside::new(context, &vertex, pdf_sr));
+            self.pdf_sr.and_then(|pdf_sr| AskedOutside::new(context, &vertex, pdf_sr, None));
         self.specular_way = self.pdf_sr.and_then(|pdf_sr| self.specular_way(context, pdf_sr));
         let cos = n.dot(self.direction);
         self.subpath = self.subpath.map(|start| start.scattered(cos, cos * FRAC_1_PI, 0.0));
@@ -233,7 +242,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
 
     /// What became of light that the path asked for.
     pub(crate) fn hear(&mut self, answer: &Answer<S>) {
-        if self.subpath.is_some() {
+        if self.subpath.is_some() && !answer.is_from_outside {
             let light = answer.light.luminance();
             self.found.asked.push(if answer.bounces.is_some() { light } else { -light });
         }
@@ -280,28 +289,27 @@ impl<'p, S: Spectrum> Path<'p, S> {
             *subpath = subpath.arrived(at.distance_m, at.n.dot(self.direction).abs());
         }
         let before = self.found.indirect;
-        if let Some(at) = at {
-            self.add_emitted(context, bounces, at);
+        match at {
+            Some(at) => self.add_emitted(context, bounces, at),
+            None => self.add_outside(context, bounces),
         }
         if let Some(record) = self.records.last_mut() {
             record.begin([before, self.found.indirect]);
         }
-        let Some(at) = at else {
-            self.add_outside(context, bounces);
-            return false;
-        };
+        let Some(at) = at else { return false };
         let surface = &Surface::new(&context.world, at, self.direction);
         let &Surface { bsdf, wo, .. } = surface;
         if !self.takes_from_virtual_lights(bsdf, at) {
             return false;
         }
-        let goes_on = self.beta * bsdf.albedo(wo, at.front, TransportMode::Radiance);
+        let carried = self.carried(bsdf);
+        let goes_on = carried * bsdf.albedo(wo, at.front, TransportMode::Radiance);
         let is_last = context.max_bounces.is_some_and(|most| bounces >= most);
         if is_last || goes_on.max_channel() == 0.0 {
             return false;
         }
         self.gather(context, bounces, at, surface, work);
-        let albedo = goes_on.max_channel() / self.beta.max_channel();
+        let albedo = goes_on.max_channel() / carried.max_channel();
         if !self.gain.grow(albedo, bounces) {
             self.cut();
             return false;
@@ -370,7 +378,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
             );
         }
         self.note_specular_way(context, at, wo, &next);
-        self.note_asked_outside(context, at, surface, &next);
+        self.note_asked_outside(context, at, surface, bounces, &next);
         self.subpath = self.subpath.map(|subpath| scattered(subpath, bsdf, wo, next.wi));
         let world = &context.world;
         self.from =
@@ -378,6 +386,8 @@ impl<'p, S: Spectrum> Path<'p, S> {
         self.direction = frame.to_world(next.wi);
         self.pdf_sr = next.pdf_sr;
         let beta = self.beta * next.weight;
+        let is_straight = next.wi.z < 0.0 && is_pane(bsdf);
+        self.beta_outside = self.beta_outside.after(beta, next.weight, onward, is_straight);
         self.beta = beta * onward.everything;
         self.beta_emitted = beta * onward.emitted;
         true
@@ -437,15 +447,15 @@ impl<'p, S: Spectrum> Path<'p, S> {
     fn russian_roulette(&mut self, context: &Context<'_, S>, bounces: u32, albedo: f64) -> Onward {
         if bounces == 0 && self.weights_of_paths != PartitionWeights::ALL {
             let PartitionWeights { first, rest } = self.weights_of_paths;
-            return Onward { emitted: first, everything: rest };
+            return Onward { emitted: first, past_panes: rest, everything: rest };
         }
         if bounces < CERTAIN_BOUNCES {
-            return Onward { emitted: 1.0, everything: 1.0 };
+            return Onward::ALL;
         }
         let bounce = Purpose::Bounce { surface: bounces + 1 };
         let factor = context
             .draw(&mut self.sampler, bounce, |sampler| russian_roulette_factor(albedo, sampler));
-        Onward { emitted: factor, everything: factor }
+        Onward { emitted: factor, past_panes: factor, everything: factor }
     }
 
     /// Adds what the last vertex was waiting for.
@@ -478,7 +488,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
                 1.0 / (1.0 + ratio * ratio)
             }
             Some(subpath) => {
-                let emission = emitted_cd_m2 * cos / context.lights.flux_lm;
+                let emission = emitted_cd_m2 * cos / context.lights.lamps_lm;
                 let is_past_specular = self.pdf_sr.is_none();
                 let asked = subpath.asked(inverse_of_direction_m2);
                 let subpath = if is_past_specular { asked } else { subpath };

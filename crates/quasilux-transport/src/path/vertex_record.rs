@@ -27,6 +27,13 @@ impl<S: Spectrum> VertexRecord<S> {
         self.before.get_or_insert(found);
     }
 
+    /// So much was found later that a map here has not.
+    pub(crate) fn add_beside_map(&mut self, found: S) {
+        if let Some([_, before]) = &mut self.before {
+            *before += found;
+        }
+    }
+
     /// This is all that the path found.
     pub(crate) fn end(&mut self, found: S) {
         if let Some(before) = self.before {

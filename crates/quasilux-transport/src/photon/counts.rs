@@ -18,6 +18,9 @@ pub(crate) struct PhotonCounts {
     pub(crate) emitted: u64,
     /// Those from lit places too; what splitting added is not among them.
     pub(crate) begun: u64,
+    /// What those that left lights carried less than a photon of all lights does: none of it where
+    /// only lamps shine.
+    pub(crate) withheld: i64,
     /// Absorbed, less what splitting added.
     pub(crate) absorbed: i64,
     pub(crate) lost: i64,
@@ -53,11 +56,12 @@ impl PhotonCounts {
         quanta as f64 / (self.emitted.max(1) as f64 * QUANTA_PER_PHOTON)
     }
 
-    /// Where the flux of the lights went, by the shares of the photons.
+    /// Where the flux of the lights went, by the shares of the photons; that from outside is what
+    /// they found to come into the scene.
     pub(crate) fn balance(&self, emitted_lm: f64) -> FluxBalance {
         let of = |quanta: i64| emitted_lm * self.share(quanta);
         FluxBalance {
-            emitted_lm,
+            emitted_lm: emitted_lm - of(self.withheld),
             absorbed_lm: of(self.absorbed),
             lost_lm: of(self.lost),
             cut_lm: of(self.cut),
@@ -80,6 +84,7 @@ impl Sums for PhotonCounts {
     fn checked_add(&mut self, other: &Self) -> Option<()> {
         add_count(&mut self.emitted, other.emitted)?;
         add_count(&mut self.begun, other.begun)?;
+        add_quanta(&mut self.withheld, other.withheld)?;
         add_quanta(&mut self.absorbed, other.absorbed)?;
         add_quanta(&mut self.lost, other.lost)?;
         add_quanta(&mut self.cut, other.cut)?;

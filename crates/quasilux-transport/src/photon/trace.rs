@@ -1,13 +1,13 @@
 //! Light tracing of one photon: emission, free flights, scattering, splitting and Russian roulette.
 //!
-//! Photons start with equal flux. At each surface they survive with the probability that keeps
-//! their luminance: what is absorbed is absorbed whole, and on grey surfaces the weight never
-//! changes (Voloboy, Dmitriev and Kopylov 2003). Only rough surfaces, whose directions cannot be
-//! drawn in exact proportion, leave it slightly changed. Photons that are guided
-//! ([`crate::importance`]) leave each place with the weight that belongs to it instead, by one or
-//! more of them or none; and those that are connected to sensors all leave the first surface, with
-//! what absorption leaves. What goes on no more is counted as absorbed, whatever was due: so flux
-//! balances exactly, and as it should on average.
+//! Photons start with equal flux, but for those from outside, where it is only about equal. At each
+//! surface they survive with the probability that keeps their luminance: what is absorbed is
+//! absorbed whole, and on grey surfaces the weight never changes (Voloboy, Dmitriev and Kopylov
+//! 2003). Only rough surfaces, whose directions cannot be drawn in exact proportion, leave it
+//! slightly changed. Photons that are guided ([`crate::importance`]) leave each place with the
+//! weight that belongs to it instead, by one or more of them or none; and those that are connected
+//! to sensors all leave the first surface, with what absorption leaves. What goes on no more is
+//! counted as absorbed, whatever was due: so flux balances exactly, and as it should on average.
 
 use crate::bsdf::TransportMode;
 use crate::context::Context;
@@ -114,7 +114,7 @@ pub(crate) fn trace_photon<'p, S: Spectrum>(
     counts.emitted += 1;
     counts.begun += 1;
     let mut generation: Vec<Departure<'p, S>> = Vec::new();
-    match photon.begin(context, lead.source) {
+    match photon.begin(context, lead.source, counts) {
         Some(Beginning::Flies(start)) => generation.push(Departure { photon, start }),
         Some(Beginning::IfLit(place)) => {
             counts.rays += 1;
@@ -170,14 +170,28 @@ impl<'p, S: Spectrum> Photon<'p, S> {
         Self { specular_only: R::SPECULAR_ONLY, ..self }
     }
 
-    /// Draws its beginning; `None` where nothing emits, or where no light can land.
+    /// Draws its beginning; `None` where nothing emits, where what was drawn carries nothing, or
+    /// where no light can land. Counts what it carries less than a photon of all lights, or more.
     pub(crate) fn begin(
+        &mut self,
+        context: &Context<'_, S>,
+        source: Source<'_>,
+        counts: &mut PhotonCounts,
+    ) -> Option<Beginning> {
+        let begins = self.draw_beginning(context, source);
+        let carried = if begins.is_some() { self.quanta() } else { Some(0) };
+        // What is no number is refused where it lands.
+        counts.withheld += QUANTA_PER_PHOTON as i64 - carried.unwrap_or(0);
+        begins
+    }
+
+    fn draw_beginning(
         &mut self,
         context: &Context<'_, S>,
         source: Source<'_>,
     ) -> Option<Beginning> {
         let lights = &context.lights;
-        let Emitted { emission, path_class, .. } = match source {
+        let Emitted { emission, path_class, share, .. } = match source {
             Source::Lights => lights.emit(&context.world, context.purposes, &mut self.sampler)?,
             Source::LitCells(cells) => match cells.draw(context, &mut self.sampler)? {
                 Drawn::Place(place) => return Some(Beginning::IfLit(place)),
@@ -189,6 +203,9 @@ impl<'p, S: Spectrum> Photon<'p, S> {
             },
         };
         self.path_class = path_class;
+        if share != 1.0 {
+            self.weight = self.weight * share;
+        }
         Some(Beginning::Flies(emission))
     }
 

@@ -53,7 +53,7 @@ pub(crate) struct VirtualLights<S> {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Surfaces {
     area_m2: f64,
-    /// Whether paths meet nothing but diffuse surfaces that do not emit.
+    /// Whether paths meet nothing but diffuse surfaces that do not emit, and no light past them.
     only_diffuse: bool,
 }
 
@@ -93,7 +93,7 @@ impl Surfaces {
         let is_diffuse = |facet| world.bsdf_of(facet).keeps_illuminance();
         Self {
             area_m2: world.facets.iter().map(|facet| facet.area_m2()).sum(),
-            only_diffuse: context.lights.emitters.is_none() && world.facets.iter().all(is_diffuse),
+            only_diffuse: !context.lights.can_be_met() && world.facets.iter().all(is_diffuse),
         }
     }
 }

@@ -119,7 +119,7 @@ impl<'p, S: Spectrum> PhotonWave<'p, S> {
     fn begin(&mut self, context: &Context<'_, S>, lead: Lead<'_>, counts: &mut PhotonCounts) {
         self.beginnings.clear();
         self.photons.retain_mut(|photon| {
-            let beginning = photon.begin(context, lead.source);
+            let beginning = photon.begin(context, lead.source, counts);
             if beginning.is_none() {
                 counts.end(photon);
             }

@@ -79,15 +79,6 @@ pub enum CheckError {
         /// Name of the switch.
         connections: &'static str,
     },
-    /// Photons do not know of the sky yet.
-    #[error(
-        "light from outside is traced by paths: the estimator \"{estimator}\" has none of it; use \
-         \"path\""
-    )]
-    OutsideNeedsPaths {
-        /// Name of the estimator.
-        estimator: &'static str,
-    },
     /// There is no light at all.
     #[error("the lights of the scene emit nothing")]
     Dark,
@@ -102,9 +93,6 @@ pub fn check(scene: &Scene, settings: &Settings) -> Result<(), CheckError> {
     let flux_lm = scene.flux_lm();
     if !((flux_lm > 0.0 || scene.environment.is_some()) && flux_lm.is_finite()) {
         return Err(CheckError::Dark);
-    }
-    if scene.environment.is_some() && settings.estimator != EstimatorKind::Path {
-        return Err(CheckError::OutsideNeedsPaths { estimator: settings.estimator.name() });
     }
     check_switches(settings)?;
     if settings.estimator == EstimatorKind::Photon { check_photon_sensors(scene) } else { Ok(()) }

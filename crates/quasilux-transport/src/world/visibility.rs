@@ -25,6 +25,8 @@ pub(crate) struct LightSample<S> {
     pub(crate) illuminance_lx: f64,
     /// Whether it is asked for through panes, too.
     pub(crate) through_panes: bool,
+    /// Whether it comes from infinitely far away.
+    pub(crate) is_from_outside: bool,
 }
 
 /// Somebody who asks for light at a place.
@@ -56,6 +58,7 @@ struct Question<S> {
     mirrors: u32,
     /// So many panes may stand in it, all together.
     max_panes: u32,
+    is_from_outside: bool,
 }
 
 /// What becomes of light that somebody asked for.
@@ -64,11 +67,14 @@ pub(crate) struct Answer<S> {
     pub(crate) light: S,
     /// Mirrors and panes on its way; `None` where something stands in it.
     pub(crate) bounces: Option<u32>,
+    /// See [`LightSample`].
+    pub(crate) is_from_outside: bool,
 }
 
 impl<S: Copy> Question<S> {
     fn blocked(&self) -> Answer<S> {
-        Answer { who: self.who, light: self.light, bounces: None }
+        let &Self { who, light, is_from_outside, .. } = self;
+        Answer { who, light, bounces: None, is_from_outside }
     }
 }
 
@@ -81,8 +87,16 @@ impl<S: Spectrum> LightSample<S> {
         illuminance_lx: f64,
     ) -> Option<Self> {
         let (facet, through_panes) = (RayQuery::NONE, true);
-        let light_sample =
-            Self { direction, distance_m, facet, light, illuminance_lx, through_panes };
+        let is_from_outside = false;
+        let light_sample = Self {
+            direction,
+            distance_m,
+            facet,
+            light,
+            illuminance_lx,
+            through_panes,
+            is_from_outside,
+        };
         // What is not a number counts: the tally must refuse it.
         (light.luminance() != 0.0).then_some(light_sample)
     }
@@ -97,6 +111,7 @@ impl<S: Spectrum> LightSample<S> {
             light: S::white() * f64::NAN,
             illuminance_lx: 0.0,
             through_panes: true,
+            is_from_outside: false,
         })
     }
 }
@@ -124,8 +139,9 @@ impl<S: Spectrum> ShadowQueue<S> {
             light_sample.facet,
         ));
         let max_panes = if light_sample.through_panes { self.max_bounces } else { 0 };
-        let question =
-            Question { who, light: light_sample.light, shadow_rays: 1, mirrors: 0, max_panes };
+        let &LightSample { light, is_from_outside, .. } = light_sample;
+        let (shadow_rays, mirrors) = (1, 0);
+        let question = Question { who, light, shadow_rays, mirrors, max_panes, is_from_outside };
         self.questions.push(question);
     }
 
@@ -145,21 +161,24 @@ impl<S: Spectrum> ShadowQueue<S> {
         let shadow_rays = (self.shadow_rays.len() - before) as u32;
         let is_open = facet == RayQuery::NONE;
         let max_panes = if is_open { self.max_bounces.saturating_sub(mirrors) } else { 0 };
-        self.questions.push(Question { who, light, shadow_rays, mirrors, max_panes });
+        let is_from_outside = false;
+        let question = Question { who, light, shadow_rays, mirrors, max_panes, is_from_outside };
+        self.questions.push(question);
     }
 
     /// Notes that `who` gets this light, which was reflected `bounces` times, if nothing at all
     /// stands in the way of the ray.
     pub(crate) fn push_connection(&mut self, who: u32, light: S, bounces: u32, ray: RayQuery) {
         self.shadow_rays.push(ray);
-        let question = Question { who, light, shadow_rays: 1, mirrors: bounces, max_panes: 0 };
+        let (shadow_rays, mirrors, max_panes, is_from_outside) = (1, bounces, 0, false);
+        let question = Question { who, light, shadow_rays, mirrors, max_panes, is_from_outside };
         self.questions.push(question);
     }
 
     /// Tells `receive` who gets how much light after how many mirrors and panes, in the order
     /// asked, and closes all questions.
     pub(crate) fn answer(&mut self, world: &World<S>, mut receive: impl FnMut(u32, S, u32)) {
-        self.answer_all(world, |Answer { who, light, bounces }| {
+        self.answer_all(world, |Answer { who, light, bounces, .. }| {
             if let Some(bounces) = bounces {
                 receive(who, light, bounces);
             }
@@ -182,6 +201,7 @@ impl<S: Spectrum> ShadowQueue<S> {
                         who: question.who,
                         light: transmitted,
                         bounces: Some(question.mirrors + panes),
+                        is_from_outside: question.is_from_outside,
                     },
                     None => question.blocked(),
                 });

@@ -37,6 +37,7 @@ mod mirrored_light;
 mod narrow_lobes;
 mod openings;
 mod outside;
+mod outside_photons;
 mod photon_orders;
 mod pictures;
 mod ranges;

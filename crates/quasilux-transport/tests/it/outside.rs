@@ -11,11 +11,11 @@ use quasilux_transport::{Estimates, EstimatorKind, Settings, simulate};
 use std::f64::consts::PI;
 
 /// The refractive index of the panes.
-const ETA: f64 = 1.52;
+pub(crate) const ETA: f64 = 1.52;
 
 /// What a pane lets through: two faces between which light goes to and fro, by Fresnel's equations
 /// for both polarisations.
-fn clear_pane(cos: f64) -> f64 {
+pub(crate) fn clear_pane(cos: f64) -> f64 {
     let inside = (1.0 - (1.0 - cos * cos) / (ETA * ETA)).sqrt();
     let reflected =
         [(cos - ETA * inside) / (cos + ETA * inside), (ETA * cos - inside) / (ETA * cos + inside)];
@@ -73,7 +73,7 @@ pub(crate) fn room_with_window(numbers: &mut Numbers, reflectance: f64) -> Room 
 }
 
 /// A sky of 10 000 lx over a ground, both at random.
-fn outside(numbers: &mut Numbers) -> Environment {
+pub(crate) fn outside(numbers: &mut Numbers) -> Environment {
     let number = 1 + (16.0 * numbers.next()) as i64;
     let sun = SkyPoint {
         altitude_deg: numbers.within(5.0, 85.0),
@@ -91,7 +91,7 @@ fn outside(numbers: &mut Numbers) -> Environment {
 }
 
 /// The same luminance from everywhere.
-fn even(cd_m2: f64) -> Environment {
+pub(crate) fn even(cd_m2: f64) -> Environment {
     let level = SkyLevel::ZenithLuminance { cd_m2 };
     Environment {
         sky: Sky::new(Distribution::uniform(), level).unwrap(),

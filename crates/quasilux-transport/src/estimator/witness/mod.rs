@@ -86,9 +86,7 @@ impl<'a, S: Spectrum> Witness<'a, S> {
         settings: &Settings,
     ) -> Option<Self> {
         let targets = targets(scene);
-        // None of its photons comes from outside.
         let is_of_use = !targets.is_empty()
-            && scene.environment.is_none()
             && settings.max_bounces != Some(0)
             && settings.effective_replicates() > 1;
         if !is_of_use {

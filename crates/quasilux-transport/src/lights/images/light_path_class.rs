@@ -12,6 +12,8 @@ pub(crate) enum LightPathClass {
     Shown(u32),
     /// From a luminous shape, straight or through panes: paths see it.
     Straight,
+    /// From outside, straight or through panes: paths ask for it, or find it past these.
+    Outside,
     /// From a light that nothing runs into, by specular surfaces alone, and in no image: paths
     /// cannot find it.
     Caustic,
@@ -37,6 +39,7 @@ impl LightPathClass {
             Self::Shown(image) if mirrored => {
                 images.shown_by(image, facet).map_or(Self::Caustic, Self::Shown)
             }
+            Self::Outside => Self::Found,
             _ => Self::Caustic,
         }
     }

@@ -51,7 +51,7 @@ impl<S: Spectrum> Path<'_, S> {
             let choice = Purpose::Image { surface: self.bounces_asked };
             let u = context.draw(&mut self.sampler, choice, Sampler::next_1d);
             let share = |direction: DVec3, lx: f64| {
-                self.weight_beside_landings(vertex, direction, lx / context.lights.flux_lm)
+                self.weight_beside_landings(vertex, direction, lx / context.lights.lamps_lm)
             };
             let query = self.image_query(context, vertex);
             let PathWork { shadows, images, .. } = work;
@@ -125,7 +125,7 @@ impl<S: Spectrum> Path<'_, S> {
         context: &Context<'_, S>,
         vertex: &Vertex<'_, S>,
     ) -> impl Fn(&EmitterPoint) -> f64 {
-        let (subpath, flux_lm) = (self.subpath, context.lights.flux_lm);
+        let (subpath, flux_lm) = (self.subpath, context.lights.lamps_lm);
         move |&EmitterPoint { direction, lx_sr, pdf_sr }| match subpath {
             None => {
                 let beside_sr = vertex.pdf_sr(direction);
@@ -231,7 +231,7 @@ impl<S: Spectrum> Path<'_, S> {
         light_sample: Option<LightSample<S>>,
     ) -> Option<LightSample<S>> {
         light_sample.map(|light_sample| {
-            let landings_m2 = light_sample.illuminance_lx / context.lights.flux_lm;
+            let landings_m2 = light_sample.illuminance_lx / context.lights.lamps_lm;
             let share = self.weight_beside_landings(vertex, light_sample.direction, landings_m2);
             LightSample { light: light_sample.light * share, ..light_sample }
         })

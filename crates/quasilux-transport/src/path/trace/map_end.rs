@@ -35,7 +35,7 @@ impl<S: Spectrum> Path<'_, S> {
                 if self.gain.left() > MIN_RECORDED_GAIN && self.records.len() < MAX_RECORDS =>
             {
                 self.record_vertex(context, bounces, at, albedo);
-                Some(Onward { emitted: 1.0, everything: 1.0 })
+                Some(Onward::ALL)
             }
             Rest::Path | Rest::Recorded | Rest::Map(_) | Rest::Frozen(_) => None,
         }
@@ -77,8 +77,8 @@ impl<S: Spectrum> Path<'_, S> {
         self.found.indirect += weight * end.map.illuminance_lx(&place, u32::MAX);
         self.take_terms(&end.map, &place, (bounces, u32::MAX), weight);
         // The direction to a light that the next surface emits is part of the direct light here, so
-        // it counts in every path.
-        Some(Onward { emitted: 1.0, everything: 0.0 })
+        // it counts in every path; so does that to light from outside, through panes too.
+        Some(Onward { everything: 0.0, ..Onward::ALL })
     }
 
     /// The same on a map that is corrected: those that go on take the difference to it along. Where
@@ -103,7 +103,7 @@ impl<S: Spectrum> Path<'_, S> {
         let weight = weight * (1.0 - everything);
         self.found.indirect += weight * lx;
         self.take_terms(&end.map, &place, (bounces, max_bounces), weight);
-        Some(Onward { emitted: 1.0, everything })
+        Some(Onward { everything, ..Onward::ALL })
     }
 
     /// Adds the terms of what a map says of the light at a surface that it came to after `bounces`,

@@ -1,7 +1,10 @@
 //! Light from outside on a path: asked for at its vertices, and found where it leaves the scene.
+//!
+//! What comes to a vertex straight or through panes is no matter of maps: the vertex asks for it,
+//! and paths that end on a map still go on through panes for their share of it.
 
-use super::{Path, PathWork};
-use crate::bsdf::BsdfSample;
+use super::{Onward, Path, PathWork};
+use crate::bsdf::{Bsdf, BsdfSample};
 use crate::context::Context;
 use crate::lights::{Asking, SunSample};
 use crate::path::daylight::{FromOutside, Whence};
@@ -17,6 +20,33 @@ pub(super) struct AskedOutside {
     place: Asking,
     /// Density in sr^-1 of the direction.
     pdf_sr: f64,
+    /// Reflections before that vertex; `None` of the start.
+    bounces: Option<u32>,
+}
+
+/// Factors on light from outside: on what the ray finds, and on what it would past panes.
+#[derive(Clone, Copy)]
+pub(super) struct OutsideFactors<S> {
+    pub(super) here: S,
+    pub(super) past_panes: S,
+}
+
+impl<S: Spectrum> OutsideFactors<S> {
+    /// After a surface that sends on the part `weight`, in all `beta`; `is_straight` where it is a
+    /// pane that let the path through.
+    pub(super) fn after(self, beta: S, weight: S, onward: &Onward, is_straight: bool) -> Self {
+        if is_straight {
+            let past_panes = self.past_panes * weight * onward.past_panes;
+            Self { here: past_panes, past_panes }
+        } else {
+            Self { here: beta * onward.emitted, past_panes: beta * onward.past_panes }
+        }
+    }
+}
+
+/// Whether light goes straight through.
+pub(super) fn is_pane<S: Spectrum>(bsdf: &Bsdf<S>) -> bool {
+    bsdf.is_specular() && bsdf.straight_transmittance(1.0).is_some()
 }
 
 impl AskedOutside {
@@ -25,8 +55,10 @@ impl AskedOutside {
         context: &Context<'_, S>,
         vertex: &Vertex<'_, S>,
         pdf_sr: f64,
+        bounces: Option<u32>,
     ) -> Option<Self> {
-        context.lights.outside.as_ref().map(|_| Self { place: Asking::at(vertex), pdf_sr })
+        let place = Asking::at(vertex);
+        context.lights.outside.as_ref().map(|_| Self { place, pdf_sr, bounces })
     }
 }
 
@@ -88,16 +120,14 @@ impl<S: Spectrum> Path<'_, S> {
         context: &Context<'_, S>,
         at: &Interaction,
         surface: &Surface<'_, S>,
+        bounces: u32,
         next: &BsdfSample<S>,
     ) {
-        let is_straight = |_: &AskedOutside| {
-            let is_pane = context.world.bsdf(at).straight_transmittance(1.0).is_some();
-            is_pane && next.wi.z < 0.0
-        };
+        let is_straight = |_: &AskedOutside| is_pane(surface.bsdf) && next.wi.z < 0.0;
         self.asked_outside = match next.pdf_sr {
             Some(pdf_sr) => {
                 let vertex = Vertex::on(&context.world, at, surface, self.beta);
-                AskedOutside::new(context, &vertex, pdf_sr)
+                AskedOutside::new(context, &vertex, pdf_sr, Some(bounces))
             }
             None => self.asked_outside.filter(is_straight),
         };
@@ -108,22 +138,33 @@ impl<S: Spectrum> Path<'_, S> {
         let Some(outside) = &context.lights.outside else { return };
         let mut found_cd_m2 = outside.luminance_cd_m2(self.direction);
         match self.asked_outside {
-            Some(AskedOutside { place, pdf_sr }) => {
+            Some(AskedOutside { place, pdf_sr, .. }) => {
                 let ratio = outside.pdf_sr(place, self.direction) / pdf_sr;
                 found_cd_m2 /= 1.0 + ratio * ratio;
             }
             // Nobody can have asked for the sun along this way.
             None => found_cd_m2 += outside.sun_cd_m2(self.direction),
         }
-        let light = self.beta_emitted * found_cd_m2;
+        let light = self.beta_outside.here * found_cd_m2;
         if self.daylight.is_some() {
             let whence = match self.asked_outside {
                 Some(_) => Whence::Outside(self.direction),
                 None => Whence::Mirrored(self.direction),
             };
             self.found.from_outside.push(FromOutside { whence, light: light.luminance() });
-        } else {
-            self.found.add(bounces, light);
+            return;
         }
+        self.found.add(bounces, light);
+        // No map at the vertex that it left has this, panes between or not.
+        let asked = self.asked_outside.and_then(|asked| asked.bounces);
+        let record = self.records.iter_mut().find(|record| Some(record.bounces) == asked);
+        record.into_iter().for_each(|record| record.add_beside_map(light));
+    }
+
+    /// What the path takes to a surface: where it has ended on a map, light from outside past panes
+    /// alone.
+    pub(super) fn carried(&self, bsdf: &Bsdf<S>) -> S {
+        let has_ended = self.beta.max_channel() == 0.0 && is_pane(bsdf);
+        if has_ended { self.beta_outside.past_panes } else { self.beta }
     }
 }

@@ -1,0 +1,142 @@
+//! A made-up year of few hours, whose measures can be counted.
+
+use super::*;
+use crate::Figure;
+use quasilux_sky::Weather;
+use quasilux_transport::PointOfYear;
+use quasilux_transport::interval::t_quantile_for;
+
+/// Two days, of which one hour is unknown: in EPW lines of month, day, hour, direct and diffuse.
+fn calendar() -> Calendar {
+    let header = "LOCATION,Nowhere,-,DEU,made up,000000,52.5,13.4,1.0,34.0\n\
+        DESIGN CONDITIONS,0\nTYPICAL/EXTREME PERIODS,0\nGROUND TEMPERATURES,0\n\
+        HOLIDAYS/DAYLIGHT SAVINGS,No,0,0,0\nCOMMENTS 1,made up\nCOMMENTS 2,\n\
+        DATA PERIODS,1,1,Data,Sunday, 1/ 1,12/31\n";
+    let mut text = header.to_owned();
+    for day in 20..22 {
+        for hour in 1..=24 {
+            let light = match (day, hour) {
+                (20, 9) => "0,100",
+                (20, 12) => "500,200",
+                (20, 20) => "0,50",
+                (21, 12) => "9999,9999",
+                _ => "0,0",
+            };
+            let before = "?9?9,9.0,7.0,87,102000,0,0,305,0";
+            text += &format!("2026,6,{day},{hour},0,{before},{light},0,0\n");
+        }
+    }
+    let weather = Weather::parse(text.as_bytes()).unwrap().weather;
+    Calendar::new(&weather, &(8.0..18.0)).unwrap()
+}
+
+/// A point whose three hours with light have these illuminances in each replicate.
+fn point(illuminance_lx: Vec<Vec<f32>>, sun_lx: [f32; 3]) -> PointOfYear {
+    let sun_lx = vec![sun_lx.to_vec(); illuminance_lx.len()];
+    PointOfYear {
+        number: 0,
+        illuminance_lx,
+        sun_lx,
+        samples: 128,
+        relative_half_width: Some(0.01),
+        is_done: true,
+        invalid: 0,
+    }
+}
+
+fn value(figure: Figure) -> f64 {
+    figure.value.unwrap()
+}
+
+#[test]
+fn hours_count_for_what_they_are() {
+    let calendar = calendar();
+    assert_eq!((calendar.intervals.len(), calendar.skies.len(), calendar.interval_h), (48, 3, 1.0));
+    assert_eq!(calendar.count(|interval| !interval.is_known), 1);
+    // Ten hours a day, one of them unknown.
+    assert_eq!(calendar.count(|interval| interval.is_occupied), 19);
+    // The brighter half of 47 hours, those with light among them.
+    assert_eq!(calendar.count(|interval| interval.is_daylit), 24);
+    let lit = calendar.count(|interval| interval.is_daylit && interval.sky.is_some());
+    assert_eq!(lit, 3);
+}
+
+#[test]
+fn measures_are_counted_over_occupied_hours() {
+    let calendar = calendar();
+    // The evening is not occupied.
+    let of_year = point(vec![vec![150.0, 4000.0, 90.0]; 2], [0.0, 1500.0, 0.0]);
+    let hours = PointOfHours::new(&of_year, &calendar, &Thresholds::default(), 0.95);
+    let measure = |measure| value(hours.summary.measure(measure));
+    let share = 1.0 / 19.0;
+    assert!((measure(Measure::Autonomy) - share).abs() < 1e-12);
+    assert!((measure(Measure::ContinuousAutonomy) - 1.5 * share).abs() < 1e-12);
+    assert!((measure(Measure::TooLittle) - 17.0 * share).abs() < 1e-12);
+    assert!((measure(Measure::Supplementary) - share).abs() < 1e-12);
+    assert_eq!(measure(Measure::Autonomous), 0.0);
+    assert!((measure(Measure::TooMuch) - share).abs() < 1e-12);
+    assert_eq!((measure(Measure::SunlitHours), measure(Measure::Exposure)), (1.0, 4240.0));
+    assert_eq!(measure(Measure::MedianDaylight), 0.0);
+    assert_eq!(hours.summary.hours, HourCounts { above: 1, below: 18, undecided: 0 });
+    let noon = calendar.intervals.iter().position(|it| it.sky == Some(1)).unwrap();
+    assert_eq!((hours.illuminance_lx[noon], hours.illuminance_lx[0]), (4000.0, 0.0));
+    assert!(hours.illuminance_lx[24 + 11].is_nan());
+}
+
+/// The interval of what is linear in the illuminances is that of a mean; a threshold within the
+/// interval of an hour leaves it undecided.
+#[test]
+fn intervals_come_from_replicates() {
+    let calendar = calendar();
+    let noon = [290.0, 302.0, 310.0, 304.0_f32];
+    let replicates = noon.map(|lx| vec![100.0, lx, 0.5 * lx]).to_vec();
+    let hours =
+        PointOfHours::new(&point(replicates, [0.0; 3]), &calendar, &Thresholds::default(), 0.9);
+    let t = t_quantile_for(4, 0.1).unwrap();
+    let mean = 301.5;
+    let off = |lx: &f32| f64::from(*lx) - mean;
+    let squares: f64 = noon.iter().map(|lx| off(lx) * off(lx)).sum();
+    let half_width = t * (squares / 12.0).sqrt();
+    let at = calendar.intervals.iter().position(|it| it.sky == Some(1)).unwrap();
+    assert!((f64::from(hours.half_width_lx[at]) - half_width).abs() < 1e-4);
+    let exposure = hours.summary.measure(Measure::Exposure);
+    assert!((value(exposure) - (100.0 + 1.5 * mean)).abs() < 1e-9);
+    assert!((exposure.half_width.unwrap() - 1.5 * half_width).abs() < 1e-6);
+    assert_eq!(hours.summary.hours, HourCounts { above: 0, below: 18, undecided: 1 });
+    let alone = point(vec![vec![100.0, 400.0, 50.0]], [0.0; 3]);
+    let alone = PointOfHours::new(&alone, &calendar, &Thresholds::default(), 0.9);
+    assert!(alone.summary.measures.iter().all(|figure| figure.half_width.is_none()));
+}
+
+/// Bounds of shares of points follow from the intervals of the points.
+#[test]
+fn shares_of_points_have_bounds() {
+    let of = |autonomy: [f64; 2], sunlit: [f64; 2], median: [f64; 2]| {
+        let mut measures = [Figure { value: Some(0.0), half_width: Some(0.0) }; Measure::ALL.len()];
+        let mut set = |measure: Measure, [value, half_width]: [f64; 2]| {
+            let place = Measure::ALL.iter().position(|other| *other == measure).unwrap();
+            measures[place] = Figure { value: Some(value), half_width: Some(half_width) };
+        };
+        set(Measure::Autonomy, autonomy);
+        set(Measure::SunlitHours, sunlit);
+        set(Measure::MedianDaylight, median);
+        PointSummary {
+            measures,
+            hours: HourCounts::default(),
+            samples: 1,
+            relative_half_width: None,
+            is_done: true,
+        }
+    };
+    let points = [
+        of([0.6, 0.01], [300.0, 5.0], [760.0, 5.0]),
+        of([0.51, 0.02], [252.0, 5.0], [510.0, 15.0]),
+        of([0.49, 0.02], [249.0, 5.0], [310.0, 5.0]),
+        of([0.3, 0.01], [0.0, 0.0], [310.0, 5.0]),
+    ];
+    let sensor = SensorOfYear::new(&points);
+    assert_eq!(sensor.autonomy, ShareOfPoints { value: 0.5, low: 0.25, high: 0.75 });
+    assert_eq!(sensor.sunlight, ShareOfPoints { value: 0.5, low: 0.25, high: 0.75 });
+    // Half of the points have 500 lx, one of them not surely; all have 300 lx.
+    assert_eq!((sensor.en17037_level, sensor.en17037_bounds), (2, [1, 2]));
+}
