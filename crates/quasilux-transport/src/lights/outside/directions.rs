@@ -153,12 +153,12 @@ mod tests {
         }
     }
 
-    /// 2^17 pseudo-random directions in 12 by 12 boxes against the integral of the density, at a
+    /// 2^20 pseudo-random directions in 12 by 12 boxes against the integral of the density, at a
     /// significance of 1e-4; a density that is 2 % wrong in half of them is rejected.
     #[test]
     fn directions_follow_the_density() {
         const BOXES: usize = 12;
-        const SAMPLES: usize = 1 << 17;
+        const SAMPLES: usize = 1 << 20;
         let table = DirectionTable::new(function).unwrap();
         let mut state = 1_u64;
         let mut number = || {
