@@ -134,7 +134,7 @@ fn windows_give_the_integral_of_what_is_behind_them() {
         scene.sensors =
             cells.map(|[origin, u, v, n]| grid("cell", [origin, u, v], [1, 1], n)).to_vec();
         scene.environment = Some(environment.clone());
-        let samples = if is_named || is_glazed { 1 << 15 } else { 1 << 17 };
+        let samples = if is_named || is_glazed { 1 << 16 } else { 1 << 17 };
         let photons = found(&run(&scene, EstimatorKind::Photon, samples, number));
         for (own, cell) in photons.into_iter().zip(cells) {
             let passed = |cos| if is_glazed { clear_pane(cos) } else { 1.0 };
