@@ -101,7 +101,7 @@ impl Meshes {
     ) {
         let Some(first) = all.first() else { return };
         if shines_beside(context, &first.suns, all.len() as u32, targets) {
-            all.iter_mut().for_each(|meshes| meshes.suns.ask_beside());
+            all.iter_mut().for_each(|meshes| meshes.suns.note_beside());
         }
     }
 

@@ -8,7 +8,7 @@ use glam::{DVec3, Vec3};
 
 /// So many suns are asked at a vertex at most: each costs about one ray, the vertex some ten, and
 /// every sun that is asked is known better.
-const MOST_ASKED: f64 = 32.0;
+const MAX_ASKED: f64 = 32.0;
 /// Where no sun was found to shine past the openings one is asked there at so many of the vertices,
 /// for nobody can know.
 const RARELY: f64 = 0.125;
@@ -68,8 +68,8 @@ impl Suns {
         }
     }
 
-    /// Has many suns asked past the openings, too.
-    pub(crate) fn ask_beside(&mut self) {
+    /// Notes that the sun shines past the openings: many are asked there, too.
+    pub(crate) fn note_beside(&mut self) {
         self.shines_beside = true;
     }
 
@@ -84,8 +84,8 @@ impl Suns {
         mut take: impl FnMut(SunSample<S>),
     ) {
         choice.sort(self, outside, vertex);
-        let asked_beside = if self.shines_beside { MOST_ASKED } else { RARELY };
-        for (side, asked) in [(THROUGH, MOST_ASKED), (BESIDE, asked_beside)] {
+        let asked_beside = if self.shines_beside { MAX_ASKED } else { RARELY };
+        for (side, asked) in [(THROUGH, MAX_ASKED), (BESIDE, asked_beside)] {
             // Most often none, whatever suns there are.
             if u >= asked {
                 continue;
