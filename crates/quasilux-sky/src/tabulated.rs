@@ -51,20 +51,37 @@ impl TabulatedSky {
         Self { sky: sky.clone(), around_sun }
     }
 
-    /// The luminance in a direction, a unit vector, in cd/m2; 0 below the horizon.
-    #[must_use]
-    pub fn luminance_cd_m2(&self, direction: [f64; 3]) -> f64 {
-        let Some(table) = &self.around_sun else { return self.sky.luminance_cd_m2(direction) };
-        if direction[2] < 0.0 {
-            return 0.0;
-        }
-        let cos = dot(direction, table.sun);
-        let half = if cos < 0.0 { &table.far } else { &table.near };
+    /// The luminances in directions, unit vectors, in cd/m2; 0 below the horizon. Directions of one
+    /// height behind one another take less time.
+    pub fn luminances_cd_m2<'d>(
+        &'d self,
+        directions: &'d [[f64; 3]],
+    ) -> impl Iterator<Item = f64> + 'd {
+        let mut last = f64::NAN;
+        let mut below_zenith = 0.0;
+        directions.iter().map(move |&direction| {
+            let Some(table) = &self.around_sun else { return self.sky.luminance_cd_m2(direction) };
+            let [_, _, z] = direction;
+            if z < 0.0 {
+                return 0.0;
+            }
+            if z != last {
+                last = z;
+                below_zenith = table.unit_cd_m2 * table.gradation.below_zenith(z);
+            }
+            (below_zenith * table.at(dot(direction, table.sun))).max(0.0)
+        })
+    }
+}
+
+impl AroundSun {
+    /// The factor by the cosine of the angle from the sun.
+    fn at(&self, cos: f64) -> f64 {
+        let half = if cos < 0.0 { &self.far } else { &self.near };
         let chord = (2.0 - 2.0 * cos.abs()).max(0.0).sqrt();
         let place = chord * (INTERVALS as f64 / SQRT_2);
         let node = (place as usize).min(INTERVALS - 1);
         let part = place - node as f64;
-        let around = half[node] + part * (half[node + 1] - half[node]);
-        (table.unit_cd_m2 * table.gradation.below_zenith(direction[2]) * around).max(0.0)
+        half[node] + part * (half[node + 1] - half[node])
     }
 }

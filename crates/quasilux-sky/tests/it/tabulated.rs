@@ -29,11 +29,13 @@ fn tables_have_the_luminances_of_their_skies() {
     for distribution in distributions {
         let sky = Sky::new(distribution, SkyLevel::HorizontalIlluminance { lx: 1e4 }).unwrap();
         let table = TabulatedSky::new(&sky);
-        for _ in 0..500 {
-            let altitude_deg = -2.0 + 92.0 * next();
-            let direction = SkyPoint { altitude_deg, azimuth_deg: 360.0 * next() }.to_direction();
-            let (found, expected) =
-                (table.luminance_cd_m2(direction), sky.luminance_cd_m2(direction));
+        let directions: Vec<[f64; 3]> = (0..500)
+            .map(|_| SkyPoint { altitude_deg: -2.0 + 92.0 * next(), azimuth_deg: 360.0 * next() })
+            .flat_map(|point| [point, SkyPoint { azimuth_deg: 200.0, ..point }])
+            .map(SkyPoint::to_direction)
+            .collect();
+        for (direction, found) in directions.iter().zip(table.luminances_cd_m2(&directions)) {
+            let expected = sky.luminance_cd_m2(*direction);
             let off = (found - expected).abs();
             assert!(off <= 1e-4 * expected.max(300.0), "{direction:?}: {found} not {expected}");
         }

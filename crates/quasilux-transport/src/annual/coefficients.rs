@@ -4,13 +4,11 @@
 //! Technology 15, 1983).
 
 use super::mesh::{Mesh, Share, Spacing};
+use super::paths::{TargetReplicate, shines_beside, trace};
 use crate::context::{Context, Stream};
 use crate::lights::Suns;
 use crate::path::daylight::{FromOutside, Whence};
-use crate::path::end::Rest;
-use crate::path::start::{Measurement, Start};
-use crate::path::wave::{PathWave, WAVE};
-use crate::purpose::Purpose;
+use crate::path::wave::PathWave;
 use crate::spectrum::Spectrum;
 use crate::stats::tally::checked_quanta;
 use crate::stats::targets::Target;
@@ -94,6 +92,19 @@ impl Meshes {
         Self { sky, suns_mesh, suns, sun_of_node, per_sr, sharpened_sky, sharpened_suns }
     }
 
+    /// Finds out whether the sun shines past the openings, by paths from these targets that do not
+    /// count: many places of the sun are asked there if it does. All replicates learn the same.
+    pub(super) fn learn<S: Spectrum>(
+        all: &mut [Self],
+        context: &Context<'_, S>,
+        targets: &[Target],
+    ) {
+        let Some(first) = all.first() else { return };
+        if shines_beside(context, &first.suns, all.len() as u32, targets) {
+            all.iter_mut().for_each(|meshes| meshes.suns.note_beside());
+        }
+    }
+
     /// The places of the sun that stand for one in a direction.
     pub(super) fn suns_for(&self, direction: glam::DVec3) -> impl Iterator<Item = SunShare> {
         let nodes = self.suns_mesh.shares(direction).into_iter();
@@ -130,46 +141,15 @@ impl Sums {
         indices: Range<u64>,
         wave: &mut PathWave<S>,
     ) -> u64 {
-        let TargetReplicate { number, target, replicate } = place;
-        let points = context.points(replicate, Stream::Paths(number as u64));
-        let start = |index: u64| {
-            let mut sampler = Sampler::new(&points, index);
-            let (position, n) = match target {
-                Target::Point { position, normal } => (*position, *normal),
-                Target::Cell { grid, cell } => {
-                    let u = context.draw(&mut sampler, Purpose::Cell, Sampler::next_2d);
-                    (grid.point_in_cell(*cell, u), grid.normal)
-                }
-            };
-            Start {
-                from: context.world.ray_origin_of_sensor(position, n),
-                measurement: Measurement::Illuminance { n, tests_pointlikes: false },
-                rest: &Rest::Path,
-                caustics: None,
-                partition: None,
-                virtual_lights: None,
-                pixel: None,
-                light_subpath: None,
-                suns: Some(&meshes.suns),
-                sampler,
-            }
-        };
         self.paths += indices.end - indices.start;
-        let mut first = indices.start;
-        while first < indices.end {
-            let together = first..indices.end.min(first + WAVE);
-            first = together.end;
-            for mut path in wave.trace(context, together.map(start)) {
-                let found = path.end().found.from_outside;
-                found.into_iter().for_each(|found| self.add(meshes, found));
-            }
-        }
-        wave.take_rays()
+        trace(context, &meshes.suns, place, indices, wave, |found| self.add(meshes, found))
     }
 
     fn add(&mut self, meshes: &Meshes, FromOutside { whence, light }: FromOutside) {
         let (direction, is_mirrored) = match whence {
-            Whence::Sun(sun) => return add(&mut self.suns[sun as usize], light, &mut self.invalid),
+            Whence::Sun(sun) | Whence::SunBeside(sun) => {
+                return add(&mut self.suns[sun as usize], light, &mut self.invalid);
+            }
             Whence::Outside(direction) => (direction, false),
             Whence::Mirrored(direction) => (direction, true),
         };
@@ -198,15 +178,6 @@ impl Sums {
             suns: self.suns.iter().map(mean).collect(),
         }
     }
-}
-
-/// Whose paths they are.
-#[derive(Clone, Copy)]
-pub(super) struct TargetReplicate<'t> {
-    /// The number of the target among all.
-    pub(super) number: usize,
-    pub(super) target: &'t Target,
-    pub(super) replicate: u32,
 }
 
 /// Adds a contribution, or counts it as one that cannot be added.

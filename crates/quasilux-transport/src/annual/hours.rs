@@ -44,7 +44,7 @@ impl HourTable {
         let group = |(hours, skies): (&[WeatherSky], &[TabulatedSky])| {
             let mut rows = vec![[0.0; LANES]; rows];
             for (lane, (hour, sky)) in hours.iter().zip(skies).enumerate() {
-                let exact: Vec<f64> = nodes.iter().map(|node| sky.luminance_cd_m2(*node)).collect();
+                let exact: Vec<f64> = sky.luminances_cd_m2(&nodes).collect();
                 for (row, around) in rows.iter_mut().zip(&meshes.sharpened_sky) {
                     let sharp = around.iter().map(|&(node, share)| share * exact[node]);
                     row[lane] = sharp.sum::<f64>() as f32;

@@ -5,7 +5,7 @@
 //! replicate gets many. The rays that decide are not among those that count, so that no choice of
 //! theirs makes a bias.
 
-use super::coefficients::TargetReplicate;
+use super::paths::TargetReplicate;
 use crate::context::{Context, Stream};
 use crate::purpose::Purpose;
 use crate::spectrum::Spectrum;

@@ -1,7 +1,8 @@
 //! The run over a year: blocks of points, each traced until its hours are known well enough.
 
-use super::coefficients::{Meshes, Sums, TargetReplicate};
+use super::coefficients::{Meshes, Sums};
 use super::hours::HourTable;
+use super::paths::TargetReplicate;
 use super::sun_disks::{ShiningSun, SunDisks, SunLight};
 use crate::context::Context;
 use crate::path::wave::PathWave;
@@ -166,8 +167,8 @@ fn run<S: Spectrum, T: Send>(
     digest: impl Fn(PointOfYear) -> T + Sync,
     mut keep: impl FnMut(T),
 ) -> YearWork {
-    let year = Year::new(context, hours, settings);
     let targets = targets(scene);
+    let year = Year::new(context, hours, settings, &targets);
     let mut work = YearWork::default();
     for (block, own) in targets.chunks(BLOCK).enumerate() {
         let points = year.simulate(BLOCK * block, own, &mut work);
@@ -184,7 +185,12 @@ fn run<S: Spectrum, T: Send>(
 }
 
 impl<'y, S: Spectrum> Year<'y, S> {
-    fn new(context: &'y Context<'y, S>, hours: Hours<'_>, settings: &'y Settings) -> Self {
+    fn new(
+        context: &'y Context<'y, S>,
+        hours: Hours<'_>,
+        settings: &'y Settings,
+        targets: &[Target],
+    ) -> Self {
         let Hours { environment, hours } = hours;
         let shines = |(hour, it): (usize, &WeatherSky)| {
             (it.sun_normal_illuminance_lx > 0.0).then(|| {
@@ -203,7 +209,8 @@ impl<'y, S: Spectrum> Year<'y, S> {
             let directions = suns.iter().map(|sun: &ShiningSun| sun.direction);
             Meshes::new(context, replicate, directions)
         };
-        let meshes: Vec<Meshes> = (0..replicates).map(mesh).collect();
+        let mut meshes: Vec<Meshes> = (0..replicates).map(mesh).collect();
+        Meshes::learn(&mut meshes, context, targets);
         let step = hours.len().div_ceil(PROBED_HOURS).max(1);
         let probed: Vec<usize> = (step / 2..hours.len()).step_by(step).collect();
         let probed_hours: Vec<WeatherSky> =

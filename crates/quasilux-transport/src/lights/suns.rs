@@ -6,8 +6,12 @@ use crate::world::vertex::Vertex;
 use crate::world::visibility::LightSample;
 use glam::{DVec3, Vec3};
 
-/// So many of the places that a vertex may see through the openings are asked.
-const ASKED_THROUGH: usize = 4;
+/// So many suns are asked at a vertex at most: each costs about one ray, the vertex some ten, and
+/// every sun that is asked is known better.
+const MAX_ASKED: f64 = 32.0;
+/// Where no sun was found to shine past the openings one is asked there at so many of the vertices,
+/// for nobody can know.
+const RARELY: f64 = 0.125;
 
 /// Directions in which the sun may stand.
 #[derive(Clone, Debug, Default)]
@@ -16,6 +20,8 @@ pub(crate) struct Suns {
     directions: Vec<DVec3>,
     /// The same by coordinate, for who looks at all of them.
     coordinates: [Vec<f32>; 3],
+    /// Whether many are asked past the openings, too.
+    shines_beside: bool,
 }
 
 /// Numbers of suns above the horizon of a vertex; working space.
@@ -23,10 +29,8 @@ pub(crate) struct Suns {
 pub(crate) struct SunChoice {
     /// What each sun is to the vertex.
     sides: Vec<u8>,
-    /// The suns behind an opening.
-    through: Vec<u32>,
-    /// How many of the others there are.
-    beside: usize,
+    /// The suns of one kind.
+    chosen: Vec<u32>,
 }
 
 /// Suns above the horizon of a vertex, and those behind an opening; 0 for those below.
@@ -38,6 +42,8 @@ const ROUNDING: f32 = 1e-6;
 /// The light of one of the suns, of 1 lx on a plane across its rays.
 pub(crate) struct SunSample<S> {
     pub(crate) sun: u32,
+    /// Whether it stands behind no opening.
+    pub(crate) is_beside: bool,
     pub(crate) light_sample: LightSample<S>,
 }
 
@@ -62,7 +68,12 @@ impl Suns {
         }
     }
 
-    /// Some of the suns, each with its chance: those that stand behind an opening, and one of the
+    /// Notes that the sun shines past the openings: many are asked there, too.
+    pub(crate) fn note_beside(&mut self) {
+        self.shines_beside = true;
+    }
+
+    /// Some of the suns, each with its chance: those that stand behind an opening, and some of the
     /// others, which may shine through what is no opening: openings need not be complete.
     pub(crate) fn samples<S: Spectrum>(
         &self,
@@ -73,26 +84,24 @@ impl Suns {
         mut take: impl FnMut(SunSample<S>),
     ) {
         choice.sort(self, outside, vertex);
-        let mut ask = |sun: u32, one_in: f64| {
-            let direction = self.directions[sun as usize];
-            let lx = one_in * vertex.cos(direction).max(0.0);
-            let light = vertex.weight(direction) * lx;
-            let sample = LightSample::unless_dark(direction, outside.beyond_m(), light, lx);
-            if let Some(light_sample) = sample {
-                take(SunSample { sun, light_sample });
+        let asked_beside = if self.shines_beside { MAX_ASKED } else { RARELY };
+        for (side, asked) in [(THROUGH, MAX_ASKED), (BESIDE, asked_beside)] {
+            // Most often none, whatever suns there are.
+            if u >= asked {
+                continue;
             }
-        };
-        let SunChoice { sides, through, beside } = choice;
-        let asked = through.len().min(ASKED_THROUGH);
-        let one_in = through.len() as f64 / asked.max(1) as f64;
-        for k in 0..asked {
-            let place = ((u + k as f64) * one_in) as usize;
-            ask(through[place.min(through.len() - 1)], one_in);
-        }
-        let place = ((u * *beside as f64) as usize).min(beside.saturating_sub(1));
-        let mut others = (0_u32..).zip(&*sides).filter(|(_, side)| **side == BESIDE);
-        if let Some((sun, _)) = others.nth(place) {
-            ask(sun, *beside as f64);
+            let chosen = choice.of_side(side);
+            let one_in = (chosen.len() as f64 / asked).max(1.0);
+            let places = (0..).map(|k| ((u + f64::from(k)) * one_in) as usize);
+            for &sun in places.map_while(|place| chosen.get(place)) {
+                let direction = self.directions[sun as usize];
+                let lx = one_in * vertex.cos(direction).max(0.0);
+                let light = vertex.weight(direction) * lx;
+                let sample = LightSample::unless_dark(direction, outside.beyond_m(), light, lx);
+                if let Some(light_sample) = sample {
+                    take(SunSample { sun, is_beside: side == BESIDE, light_sample });
+                }
+            }
         }
     }
 }
@@ -100,7 +109,7 @@ impl Suns {
 impl SunChoice {
     /// Tells the suns behind an opening from the others above the horizon of a vertex.
     fn sort<S: Spectrum>(&mut self, suns: &Suns, outside: &OutsideLight<'_>, v: &Vertex<'_, S>) {
-        let Self { sides, through, beside } = self;
+        let Self { sides, .. } = self;
         sides.clear();
         sides.resize(suns.len(), if outside.has_portals() { BESIDE } else { THROUGH });
         for corners in outside.portal_corners() {
@@ -110,10 +119,19 @@ impl SunChoice {
         if let Some(n) = v.only_side() {
             suns.lower(n.as_vec3(), sides);
         }
-        through.clear();
-        let numbered = (0..).zip(&*sides);
-        through.extend(numbered.filter(|(_, side)| **side == THROUGH).map(|(sun, _)| sun));
-        *beside = sides.iter().filter(|side| **side == BESIDE).count();
+    }
+
+    /// The suns of one kind.
+    fn of_side(&mut self, wanted: u8) -> &[u32] {
+        let Self { sides, chosen } = self;
+        chosen.resize(sides.len(), 0);
+        let mut count = 0;
+        for (sun, side) in (0..).zip(&*sides) {
+            // Without branches: what is not wanted is written over.
+            chosen[count] = sun;
+            count += usize::from(*side == wanted);
+        }
+        &chosen[..count]
     }
 }
 

@@ -14,6 +14,8 @@ pub(crate) enum Whence {
     Mirrored(DVec3),
     /// One of the suns.
     Sun(u32),
+    /// One of them that stands behind no opening.
+    SunBeside(u32),
 }
 
 /// What a path found.

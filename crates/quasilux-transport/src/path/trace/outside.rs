@@ -107,8 +107,9 @@ impl<S: Spectrum> Path<'_, S> {
         let purpose = Purpose::Sun { surface: self.bounces_asked };
         let u = context.draw(&mut self.sampler, purpose, Sampler::next_1d);
         let PathWork { shadows, suns, .. } = work;
-        daylight.suns.samples(outside, vertex, u, suns, |SunSample { sun, light_sample }| {
-            daylight.note_asked(Whence::Sun(sun));
+        daylight.suns.samples(outside, vertex, u, suns, |sample| {
+            let SunSample { sun, is_beside, light_sample } = sample;
+            daylight.note_asked(if is_beside { Whence::SunBeside(sun) } else { Whence::Sun(sun) });
             shadows.ask(self.number, vertex, &light_sample);
         });
     }
