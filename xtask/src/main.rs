@@ -1,9 +1,10 @@
 //! The project's own commands: `cargo xtask help` lists them.
 //!
 //! [`steps`] is the test command, [`python`], [`examples`], [`cluster`] and [`documents`] its last
-//! steps, [`office`] the generator behind `examples/office/`, [`cie171`] and [`octant`] those of
-//! cases in `validation/`, [`experiments`] that of `docs/experiments.md`. The rules that no
-//! compiler checks are in `tests/architecture/`.
+//! steps, [`office`] and [`weather`] the generators behind `examples/office/` and
+//! `examples/daylight-office/`, [`cie171`] and [`octant`] those of cases in `validation/`,
+//! [`experiments`] that of `docs/experiments.md`. The rules that no compiler checks are in
+//! `tests/architecture/`.
 
 mod arrows;
 mod cie171;
@@ -20,6 +21,7 @@ mod prediction;
 mod python;
 mod same_bits;
 mod steps;
+mod weather;
 mod wrap;
 
 use std::path::Path;
@@ -48,6 +50,7 @@ cargo xtask ratchet new    the same after a rule was added, when they may grow
 cargo xtask figures [PATH] sizes of all crates and of their module graphs, here or elsewhere
 cargo xtask octant         write the mirror octant in validation/ from its generator
 cargo xtask office         write examples/office/ from its generator
+cargo xtask weather        write the weather of examples/daylight-office/ from its generator
 cargo xtask cie171         write the cases of CIE 171:2006 in validation/ from their generator
 cargo xtask experiments    write docs/experiments.md from what the experiments wrote
 cargo xtask pictures       write the pictures of the documentation from the commands beside them
@@ -75,6 +78,7 @@ fn main() -> ExitCode {
         ["experiments"] => experiments::write(&workspace_root()),
         ["pictures"] => documents::draw(&workspace_root()),
         ["octant"] => octant::write(&workspace_root()),
+        ["weather"] => weather::write(&workspace_root()),
         ["office"] => office::write(&workspace_root()),
         _ => Err(format!("no such command: {:?}\n\n{HELP}", words.join(" "))),
     };

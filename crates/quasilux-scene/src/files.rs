@@ -23,11 +23,13 @@ pub enum FileKind {
     Panorama,
     /// A glazing product of the IGSDB.
     Glazing,
+    /// When blinds are closed: CSV.
+    Schedule,
 }
 
 impl FileKind {
     /// All kinds.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Geometry,
         Self::MaterialLibrary,
         Self::Buffer,
@@ -37,6 +39,7 @@ impl FileKind {
         Self::Weather,
         Self::Panorama,
         Self::Glazing,
+        Self::Schedule,
     ];
 
     /// Most bytes that a file of this kind can have.
@@ -47,7 +50,7 @@ impl FileKind {
             Self::Panorama => 1 << 30,
             Self::Bsdf => 256 << 20,
             Self::MaterialLibrary | Self::Photometry | Self::Weather => 64 << 20,
-            Self::Glazing => 16 << 20,
+            Self::Glazing | Self::Schedule => 16 << 20,
             Self::Tilt => 1 << 20,
         }
     }

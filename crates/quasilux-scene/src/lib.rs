@@ -6,6 +6,7 @@
 //! Read on at [`scene`] for the model, at [`project`] for the project file, and at [`mod@load`] for
 //! the way from bytes to a [`Scene`].
 
+pub mod annual;
 pub mod bsdf;
 pub mod camera;
 mod checks;
@@ -24,6 +25,7 @@ pub mod scene;
 pub mod sensor;
 pub mod solids;
 
+pub use annual::{Blinds, BlindsControl, ElectricLight};
 pub use bsdf::Bsdf;
 pub use camera::{Camera, View};
 pub use environment::{Environment, Opening, SkyFacts, SkyModel, Sun};

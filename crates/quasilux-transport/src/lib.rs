@@ -47,7 +47,9 @@ mod spectrum;
 mod stats;
 mod world;
 
-pub use annual::{PointOfYear, YearProgress, YearWork, simulate_year};
+pub use annual::{
+    ClosedHours, PointOfYear, YearHours, YearProgress, YearWork, simulate_year, sunlit_points,
+};
 pub use bsdf::Scattering;
 pub use codec::StateError;
 pub use explain::{Explanation, explain};

@@ -46,6 +46,7 @@ pub fn hours_csv(report: &AnnualReport<'_>) -> String {
         "sun_azimuth_deg",
         "sky_horizontal_lx",
         "sun_normal_lx",
+        "blinds_closed",
     ];
     let columns: Vec<String> = columns.map(str::to_owned).into_iter().chain(names).collect();
     let mut text = columns.join(",") + "\n";
@@ -57,6 +58,8 @@ pub fn hours_csv(report: &AnnualReport<'_>) -> String {
             sky.map(|it| it.sky.horizontal_illuminance_lx()),
             sky.map(|it| it.sun_normal_illuminance_lx),
         ];
+        let is_closed = |sky: usize| report.closed.as_ref().is_some_and(|closed| closed[sky]);
+        let blinds = interval.sky.map(|sky| f64::from(u8::from(is_closed(sky))));
         let inside = report.mean_lx.iter().map(|lx| interval.is_known.then_some(lx[number]));
         let mut fields = vec![
             interval.month.to_string(),
@@ -64,7 +67,7 @@ pub fn hours_csv(report: &AnnualReport<'_>) -> String {
             exact(interval.middle_h),
             u8::from(interval.is_occupied).to_string(),
         ];
-        let figures = outside.into_iter().chain(inside);
+        let figures = outside.into_iter().chain([blinds]).chain(inside);
         fields.extend(figures.map(|x| x.map(exact).unwrap_or_default()));
         text += &(fields.join(",") + "\n");
     }

@@ -5,6 +5,7 @@
 //! whose interval is on the right side of the threshold as a whole, `high` those whose interval
 //! reaches there.
 
+use super::dimming::Dimming;
 use super::measures::Measure;
 use super::point::PointSummary;
 use super::report::{AnnualReport, AnnualRun, SensorPoints};
@@ -23,6 +24,10 @@ struct Document<'a> {
     tolerance_reached: bool,
     site: Value,
     hours: Value,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    blinds: Option<Value>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    electric_light: Option<Value>,
     thresholds: Value,
     sensors: Vec<SensorEntry<'a>>,
     run: Value,
@@ -72,6 +77,11 @@ pub fn annual_json(report: &AnnualReport<'_>) -> String {
             "daylit": calendar.count(|it| it.is_daylit),
             "occupied_h": [report.occupied_h.start, report.occupied_h.end],
         }),
+        blinds: report.closed_intervals(|_| true).map(|closed| {
+            let occupied = report.closed_intervals(|interval| interval.is_occupied);
+            json!({ "closed": closed, "closed_occupied": occupied })
+        }),
+        electric_light: report.dimming.as_ref().map(|dimming| electric_light(report, dimming)),
         thresholds: json!({
             "enough_lx": report.thresholds.enough_lx,
             "useful_lx": report.thresholds.useful_lx,
@@ -80,6 +90,21 @@ pub fn annual_json(report: &AnnualReport<'_>) -> String {
         sensors: sensors.collect(),
         run: run_entry(run),
         warnings: &run.warnings,
+    })
+}
+
+/// Electric light and its energy.
+fn electric_light(report: &AnnualReport<'_>, dimming: &Dimming) -> Value {
+    let light = dimming.light;
+    let energy = dimming.energy(report.calendar, report.run.settings.confidence);
+    json!({
+        "sensor": report.scene.sensors[light.sensor].name,
+        "target_lx": light.target_lx,
+        "power_w": light.power_w,
+        "min_power_w": light.min_power_w,
+        "energy_kwh": energy.dimmed_kwh.value,
+        "energy_kwh_half_width": energy.dimmed_kwh.half_width,
+        "full_power_kwh": energy.full_kwh,
     })
 }
 

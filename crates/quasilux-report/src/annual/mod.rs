@@ -5,8 +5,10 @@
 //! and [`sensor`](SensorOfYear) what all points of a sensor have together; [`AnnualReport`] has it
 //! all, for the document, the table, the spreadsheets and the pictures.
 
+mod blinds;
 mod calendar;
 mod csv;
+mod dimming;
 mod document;
 mod measures;
 mod picture;
@@ -17,8 +19,10 @@ mod table;
 #[cfg(test)]
 mod tests;
 
+pub use blinds::closed_hours;
 pub use calendar::{Calendar, Interval};
 pub use csv::{annual_csv, hours_csv};
+pub use dimming::{Dimming, EnergyOfYear};
 pub use document::annual_json;
 pub use measures::{Measure, Thresholds};
 pub use picture::{AnnualMap, annual_maps, hours_png};

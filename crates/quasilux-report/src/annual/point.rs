@@ -48,6 +48,8 @@ pub struct PointOfHours {
     pub illuminance_lx: Vec<f32>,
     /// Their half-widths.
     pub half_width_lx: Vec<f32>,
+    /// Illuminances in lx by replicate and hour with light.
+    pub(super) by_replicate: Vec<Vec<f32>>,
 }
 
 impl PointSummary {
@@ -62,7 +64,7 @@ impl PointOfHours {
     /// What a point that was simulated has of the year, with intervals of this level of confidence.
     #[must_use]
     pub fn new(
-        point: &PointOfYear,
+        point: PointOfYear,
         calendar: &Calendar,
         thresholds: &Thresholds,
         confidence: f64,
@@ -113,6 +115,7 @@ impl PointOfHours {
             },
             illuminance_lx: by_interval(&of_year.means),
             half_width_lx: by_interval(&half_widths),
+            by_replicate: point.illuminance_lx,
         }
     }
 }

@@ -1,8 +1,9 @@
 //! All results of a year.
 
-use super::calendar::Calendar;
+use super::calendar::{Calendar, Interval};
+use super::dimming::Dimming;
 use super::measures::Thresholds;
-use super::point::PointSummary;
+use super::point::{PointOfHours, PointSummary};
 use super::sensor::SensorOfYear;
 use quasilux_scene::{Scene, Sensor};
 use quasilux_sky::{Site, Weather};
@@ -50,6 +51,10 @@ pub struct AnnualReport<'a> {
     pub calendar: &'a Calendar,
     /// When people are there, in h of the clock.
     pub occupied_h: Range<f64>,
+    /// Whether blinds are closed, by hour of those with light; `None` where there are none.
+    pub closed: Option<Vec<bool>>,
+    /// Electric light that daylight dims.
+    pub dimming: Option<Dimming>,
     /// What illuminances were compared with.
     pub thresholds: Thresholds,
     /// All points, through all sensors.
@@ -82,7 +87,14 @@ impl<'a> AnnualReport<'a> {
         self.run.work.is_complete && self.points.iter().all(|point| point.is_done)
     }
 
-    /// A report without results.
+    /// How many intervals of a kind have closed blinds; `None` where there are no blinds.
+    pub(super) fn closed_intervals(&self, is_of_kind: impl Fn(&Interval) -> bool) -> Option<usize> {
+        let closed = self.closed.as_ref()?;
+        let is_closed = |it: &Interval| it.sky.is_some_and(|sky| closed[sky]);
+        Some(self.calendar.count(|interval| is_closed(interval) && is_of_kind(interval)))
+    }
+
+    /// A report without results, of a room without blinds and electric light.
     #[must_use]
     pub fn begin(
         scene: &'a Scene,
@@ -98,6 +110,8 @@ impl<'a> AnnualReport<'a> {
             site: weather.site,
             calendar,
             occupied_h,
+            closed: None,
+            dimming: None,
             thresholds: Thresholds::default(),
             points: Vec::new(),
             mean_lx: vec![vec![0.0; hours]; scene.sensors.len()],
@@ -106,17 +120,20 @@ impl<'a> AnnualReport<'a> {
     }
 
     /// Adds the next point.
-    pub fn push(&mut self, summary: PointSummary, illuminance_lx: &[f32]) {
+    pub fn push(&mut self, point: &PointOfHours) {
+        if let Some(dimming) = &mut self.dimming {
+            dimming.add(self.points.len(), &point.by_replicate);
+        }
         let mut number = self.points.len();
         for (sensor, mean_lx) in self.scene.sensors.iter().zip(&mut self.mean_lx) {
             if number < sensor.len() {
                 let share = 1.0 / sensor.len() as f64;
-                let hours = mean_lx.iter_mut().zip(illuminance_lx);
+                let hours = mean_lx.iter_mut().zip(&point.illuminance_lx);
                 hours.for_each(|(mean, lx)| *mean += share * f64::from(*lx));
                 break;
             }
             number -= sensor.len();
         }
-        self.points.push(summary);
+        self.points.push(point.summary.clone());
     }
 }

@@ -1,10 +1,11 @@
 //! The results of a year for a terminal.
 
+use super::dimming::Dimming;
 use super::measures::Measure;
 use super::point::PointSummary;
 use super::report::{AnnualReport, SensorPoints};
 use super::sensor::{SensorOfYear, ShareOfPoints};
-use crate::number::count;
+use crate::number::{count, figure_text};
 use std::fmt::Write;
 
 /// Names of the levels of EN 17037.
@@ -27,9 +28,16 @@ pub fn annual_table(report: &AnnualReport<'_>) -> String {
     if unknown > 0 {
         write!(text, ", {} unknown and left out", count(unknown as u64)).expect("strings grow");
     }
+    if let Some(closed) = report.closed_intervals(|interval| interval.is_occupied) {
+        let closed = count(closed as u64);
+        write!(text, "; blinds closed in {closed} of the occupied").expect("strings grow");
+    }
     text.push_str("\n\n");
     for (SensorPoints { sensor, points }, summary) in report.sensors().zip(report.summaries()) {
         write_sensor(&mut text, &sensor.name, points, &summary);
+    }
+    if let Some(dimming) = &report.dimming {
+        write_electric_light(&mut text, report, dimming);
     }
     let worst = report.points.iter().filter_map(|point| point.relative_half_width);
     let worst = worst.fold(0.0, f64::max);
@@ -49,6 +57,19 @@ pub fn annual_table(report: &AnnualReport<'_>) -> String {
         writeln!(text, "warning: {warning}").expect("strings grow");
     }
     text
+}
+
+fn write_electric_light(text: &mut String, report: &AnnualReport<'_>, dimming: &Dimming) {
+    let energy = dimming.energy(report.calendar, report.run.settings.confidence);
+    let dimmed = figure_text(energy.dimmed_kwh).joined();
+    let light = dimming.light;
+    writeln!(
+        text,
+        "electric light: {dimmed} kWh a year, dimmed by the daylight of {} to {} lx; {:.0} kWh at \
+         full power\n",
+        report.scene.sensors[light.sensor].name, light.target_lx, energy.full_kwh,
+    )
+    .expect("strings grow");
 }
 
 fn write_sensor(text: &mut String, name: &str, points: &[PointSummary], summary: &SensorOfYear) {

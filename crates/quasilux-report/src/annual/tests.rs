@@ -2,9 +2,13 @@
 
 use super::*;
 use crate::Figure;
+use glam::DVec3;
+use quasilux_scene::{
+    Blinds, BlindsControl, ElectricLight, Scene, Sensor, SensorPoint, SensorShape,
+};
 use quasilux_sky::Weather;
-use quasilux_transport::PointOfYear;
 use quasilux_transport::interval::t_quantile_for;
+use quasilux_transport::{PointOfYear, Settings};
 
 /// Two days, of which one hour is unknown: in EPW lines of month, day, hour, direct and diffuse.
 fn calendar() -> Calendar {
@@ -66,7 +70,7 @@ fn measures_are_counted_over_occupied_hours() {
     let calendar = calendar();
     // The evening is not occupied.
     let of_year = point(vec![vec![150.0, 4000.0, 90.0]; 2], [0.0, 1500.0, 0.0]);
-    let hours = PointOfHours::new(&of_year, &calendar, &Thresholds::default(), 0.95);
+    let hours = PointOfHours::new(of_year, &calendar, &Thresholds::default(), 0.95);
     let measure = |measure| value(hours.summary.measure(measure));
     let share = 1.0 / 19.0;
     assert!((measure(Measure::Autonomy) - share).abs() < 1e-12);
@@ -91,7 +95,7 @@ fn intervals_come_from_replicates() {
     let noon = [290.0, 302.0, 310.0, 304.0_f32];
     let replicates = noon.map(|lx| vec![100.0, lx, 0.5 * lx]).to_vec();
     let hours =
-        PointOfHours::new(&point(replicates, [0.0; 3]), &calendar, &Thresholds::default(), 0.9);
+        PointOfHours::new(point(replicates, [0.0; 3]), &calendar, &Thresholds::default(), 0.9);
     let t = t_quantile_for(4, 0.1).unwrap();
     let mean = 301.5;
     let off = |lx: &f32| f64::from(*lx) - mean;
@@ -104,7 +108,7 @@ fn intervals_come_from_replicates() {
     assert!((exposure.half_width.unwrap() - 1.5 * half_width).abs() < 1e-6);
     assert_eq!(hours.summary.hours, HourCounts { above: 0, below: 18, undecided: 1 });
     let alone = point(vec![vec![100.0, 400.0, 50.0]], [0.0; 3]);
-    let alone = PointOfHours::new(&alone, &calendar, &Thresholds::default(), 0.9);
+    let alone = PointOfHours::new(alone.clone(), &calendar, &Thresholds::default(), 0.9);
     assert!(alone.summary.measures.iter().all(|figure| figure.half_width.is_none()));
 }
 
@@ -139,4 +143,46 @@ fn shares_of_points_have_bounds() {
     assert_eq!(sensor.sunlight, ShareOfPoints { value: 0.5, low: 0.25, high: 0.75 });
     // Half of the points have 500 lx, one of them not surely; all have 300 lx.
     assert_eq!((sensor.en17037_level, sensor.en17037_bounds), (2, [1, 2]));
+}
+
+/// Occupied hours without daylight take all power, those with a part of the target a part of it,
+/// others the least; the interval is that of the differences between replicates.
+#[test]
+fn daylight_dims_lamps() {
+    let calendar = calendar();
+    let light = ElectricLight { sensor: 0, target_lx: 400.0, power_w: 1000.0, min_power_w: 100.0 };
+    let mut dimming = Dimming::begin(light, &scene_of_points(2));
+    dimming.add(0, &[vec![50.0, 900.0, 0.0], vec![70.0, 900.0, 0.0]]);
+    dimming.add(1, &[vec![150.0, 900.0, 0.0], vec![130.0, 900.0, 0.0]]);
+    dimming.add(2, &[vec![1e6; 3], vec![1e6; 3]]);
+    // 17 hours in the dark, one with a quarter of the target, one with more than it.
+    let EnergyOfYear { dimmed_kwh, full_kwh } = dimming.energy(&calendar, 0.95);
+    let expected = 17.0 + (0.1 + 0.9 * 0.75) + 0.1;
+    assert!((value(dimmed_kwh) - expected).abs() < 1e-9, "{dimmed_kwh:?}");
+    assert_eq!((full_kwh, dimmed_kwh.half_width), (19.0, Some(0.0)));
+    let mut noisy = Dimming::begin(light, &scene_of_points(1));
+    noisy.add(0, &[vec![100.0, 900.0, 0.0], vec![140.0, 900.0, 0.0]]);
+    // Means of 100 and 140 lx are 20 lx from their mean: so many times the slope is the error.
+    let error = 20.0 / 400.0 * 0.9;
+    let t = t_quantile_for(2, 0.05).unwrap();
+    let found = noisy.energy(&calendar, 0.95).dimmed_kwh.half_width.unwrap();
+    assert!((found / (t * error) - 1.0).abs() < 1e-9, "{found}");
+}
+
+fn scene_of_points(count: usize) -> Scene {
+    let point = SensorPoint { position: DVec3::ZERO, normal: DVec3::Z };
+    let shape = SensorShape::Points(vec![point; count]);
+    Scene { sensors: vec![Sensor { name: "desk".to_owned(), shape }], ..Scene::default() }
+}
+
+/// A schedule says it of all intervals, those without light, too.
+#[test]
+fn schedules_close_blinds() {
+    let calendar = calendar();
+    let mut is_closed = vec![true; 48];
+    is_closed[calendar.intervals.iter().position(|it| it.sky == Some(1)).unwrap()] = false;
+    let control = BlindsControl::Schedule { is_closed };
+    let blinds = Blinds { closed: Scene::default(), control };
+    let closed = closed_hours(&blinds, &Scene::default(), &calendar, &Settings::default());
+    assert_eq!(closed, [true, false, true]);
 }

@@ -1,5 +1,6 @@
 //! From the bytes of a project to a checked [`Scene`].
 
+mod blinds;
 mod glazing;
 mod lights;
 mod materials;
@@ -10,7 +11,8 @@ mod places;
 
 pub use places::Places;
 
-use crate::project::{Project, SimulationSection};
+use crate::annual::{Blinds, ElectricLight};
+use crate::project::{ElectricLightEntry, Project, SimulationSection};
 use crate::{Files, LoadError, Scene, SkyFacts, Warning, checks, enclosures, geometry};
 
 /// A loaded project.
@@ -25,6 +27,10 @@ pub struct Loaded {
     pub maintenance_factor: f64,
     /// What the sky was made of; `None` where nothing is outside.
     pub sky: Option<SkyFacts>,
+    /// Blinds that move over a year; they are open in the scene.
+    pub blinds: Option<Blinds>,
+    /// Electric light that daylight dims over a year.
+    pub electric_light: Option<ElectricLight>,
     /// What the project file asks of the engine.
     pub simulation: SimulationSection,
     /// Oddities that were lived with.
@@ -43,19 +49,55 @@ pub fn load(
 ) -> Result<Loaded, LoadError> {
     let project = Project::parse(project_name, project_bytes)?;
     let mut warnings = Vec::new();
-    let geometry = geometry::read(&project, files, &mut warnings)?;
-    let materials = materials::resolve(&project, &geometry, files, &mut warnings)?;
-    let lights = lights::place(&project, &geometry, files, &mut warnings)?;
+    let Built { scene, places, facts } = build(&project, files, &mut warnings)?;
+    let intervals = scene.weather.as_ref().map_or(0, |weather| weather.hours.len());
+    let blinds = blinds::hang(&project, intervals, files, &mut warnings)?;
+    let electric_light = electric_light(&project)?;
+    let Project { simulation, maintenance_factor, .. } = project;
+    Ok(Loaded {
+        scene,
+        places,
+        maintenance_factor,
+        sky: facts,
+        blinds,
+        electric_light,
+        simulation,
+        warnings,
+    })
+}
+
+/// A scene, and what was said of it.
+struct Built {
+    scene: Scene,
+    places: Places,
+    facts: Option<SkyFacts>,
+}
+
+/// The scene of a project, its blinds open.
+fn build(
+    project: &Project,
+    files: &dyn Files,
+    warnings: &mut Vec<Warning>,
+) -> Result<Built, LoadError> {
+    let geometry = geometry::read(project, files, warnings)?;
+    let materials = materials::resolve(project, &geometry, files, warnings)?;
+    let lights = lights::place(project, &geometry, files, warnings)?;
     let sensors = project.sensors.iter().map(|entry| entry.sensor.clone()).collect();
     let cameras = project.cameras.iter().map(|entry| entry.camera.clone()).collect();
-    let places = Places::new(&project, &geometry);
+    let places = Places::new(project, &geometry);
     let outside::Outside { environment, weather, facts } =
-        outside::resolve(&project, files, &mut warnings)?;
+        outside::resolve(project, files, warnings)?;
     let mesh = geometry.mesh;
     let scene = Scene { mesh, materials, lights, environment, weather, sensors, cameras };
-    enclosures::light_must_end(&scene, &project)?;
-    enclosures::glass_must_be_closed(&scene, &project, &mut warnings);
-    checks::places_in_walls(&scene, &project, &mut warnings)?;
-    let Project { simulation, maintenance_factor, .. } = project;
-    Ok(Loaded { scene, places, maintenance_factor, sky: facts, simulation, warnings })
+    enclosures::light_must_end(&scene, project)?;
+    enclosures::glass_must_be_closed(&scene, project, warnings);
+    checks::places_in_walls(&scene, project, warnings)?;
+    Ok(Built { scene, places, facts })
+}
+
+fn electric_light(project: &Project) -> Result<Option<ElectricLight>, LoadError> {
+    let Some(entry) = &project.electric_light else { return Ok(None) };
+    let &ElectricLightEntry { power_w, min_power_w, target_lx, ref sensor } = entry;
+    let sensor = project.sensor_number(sensor)?;
+    Ok(Some(ElectricLight { sensor, target_lx, power_w, min_power_w }))
 }

@@ -68,6 +68,11 @@ pub(super) fn read(root: &Section<'_>) -> Result<Vec<MaterialEntry>, LoadError> 
     let Some(materials) = root.table("materials")? else {
         return Ok(Vec::new());
     };
+    entries(&materials)
+}
+
+/// The materials of a table, by name.
+pub(super) fn entries(materials: &Section<'_>) -> Result<Vec<MaterialEntry>, LoadError> {
     let entries = materials.entries().into_iter();
     entries
         .map(|Entry { key: name, value }| {

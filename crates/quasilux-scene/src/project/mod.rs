@@ -4,9 +4,11 @@
 //! keys, wrong types and values out of range are refused with their place and the nearest valid
 //! key.
 
+mod blinds;
 mod cameras;
 mod coefficients;
 mod document;
+mod electric_light;
 mod grid;
 mod lights;
 mod luminaires;
@@ -23,7 +25,9 @@ pub use renamed::{RENAMED_KEYS, RenamedKey};
 pub use simulation::{SimulationSection, doubt_of_tolerance};
 pub use units::LengthUnit;
 
+pub(crate) use blinds::{BlindsEntry, BlindsRule};
 pub(crate) use cameras::CameraEntry;
+pub(crate) use electric_light::ElectricLightEntry;
 pub(crate) use lights::{Emission, LightEntry};
 pub(crate) use luminaires::LuminaireEntry;
 pub(crate) use materials::{LayerEntry, MaterialEntry, Scattering};
@@ -31,7 +35,7 @@ pub(crate) use outside::{OutsideEntry, OutsideLight, PanoramaEntry, WeatherEntry
 pub(crate) use sensors::SensorEntry;
 
 use crate::{LoadError, Spanned};
-use document::{Section, Source};
+use document::{Section, Source, Value};
 use names::Names;
 use quasilux_text::Position;
 use toml::de::DeTable;
@@ -62,6 +66,8 @@ pub(crate) struct Project {
     pub(crate) lights: Vec<LightEntry>,
     /// What shines from outside.
     pub(crate) outside: Option<OutsideEntry>,
+    pub(crate) blinds: Option<BlindsEntry>,
+    pub(crate) electric_light: Option<ElectricLightEntry>,
     pub(crate) sensors: Vec<SensorEntry>,
     /// At least one where there is no sensor.
     pub(crate) cameras: Vec<CameraEntry>,
@@ -72,7 +78,9 @@ pub(crate) struct Project {
 /// 0.1 kB once it is read, whatever it takes in the file.
 const MAX_PARTS: usize = 1 << 23;
 
-const SECTIONS: [&str; 13] = [
+const EXPECTED_SENSORS: &str = "at least one [[sensors]] or [[cameras]]";
+
+const SECTIONS: [&str; 15] = [
     "scene",
     "materials",
     "luminaires",
@@ -83,6 +91,8 @@ const SECTIONS: [&str; 13] = [
     "sun",
     "ground",
     "openings",
+    "blinds",
+    "electric_light",
     "sensors",
     "cameras",
     "simulation",
@@ -103,11 +113,7 @@ impl Project {
         let text = text_of(file, bytes)?;
         let source = Source::new(file, text);
         expect_few_parts(&source, text)?;
-        let table = DeTable::parse(text).map_err(|error| {
-            let message = error.message().replace('\n', "; ");
-            let offset = error.span().map_or(0, |span| span.start);
-            source.error(offset, format!("not valid TOML: {message}"))
-        })?;
+        let table = table_of(&source, text)?;
         let root = source.root(table.get_ref());
         root.only(&SECTIONS, &[])?;
 
@@ -124,6 +130,7 @@ impl Project {
         let luminaires = luminaires::read(&root)?;
         let lights = lights::read(&root)?;
         let outside = outside::read(&root)?;
+        let blinds = blinds::read(&root, outside.as_ref(), &geometry)?;
         if luminaires.is_empty() && lights.is_empty() && outside.is_none() {
             let message = "no lights; expected at least one [[luminaires]] or [[lights]], or [sky]";
             return Err(root.error(message));
@@ -133,9 +140,9 @@ impl Project {
         let sensors = sensors::read(&root, &mut names)?;
         let cameras = cameras::read(&root, &mut names)?;
         if sensors.is_empty() && cameras.is_empty() {
-            let message =
-                "no sensors and no cameras; expected at least one [[sensors]] or [[cameras]]";
-            return Err(root.error(message));
+            return Err(
+                root.error(format!("no sensors and no cameras; expected {EXPECTED_SENSORS}"))
+            );
         }
         Ok(Self {
             file: file.to_owned(),
@@ -148,6 +155,8 @@ impl Project {
             luminaires,
             lights,
             outside,
+            blinds,
+            electric_light: electric_light::read(&root)?,
             sensors,
             cameras,
             simulation: simulation::read(file, &root)?,
@@ -159,6 +168,27 @@ impl Project {
     pub(crate) fn error(&self, place: Position, message: impl Into<String>) -> LoadError {
         LoadError::new(&self.file, Some(place), message)
     }
+
+    /// The number of the sensor of this name.
+    pub(crate) fn sensor_number(&self, name: &Spanned<String>) -> Result<usize, LoadError> {
+        let names = || self.sensors.iter().map(|entry| entry.sensor.name.as_str());
+        names().position(|own| own == name.value).ok_or_else(|| {
+            let message =
+                format!("no sensor is called \"{}\"; expected the name of one", name.value);
+            self.error(name.place, message).offer(&name.value, names())
+        })
+    }
+}
+
+fn table_of<'t>(
+    source: &Source<'_>,
+    text: &'t str,
+) -> Result<toml::Spanned<DeTable<'t>>, LoadError> {
+    DeTable::parse(text).map_err(|error| {
+        let message = error.message().replace('\n', "; ");
+        let offset = error.span().map_or(0, |span| span.start);
+        source.error(offset, format!("not valid TOML: {message}"))
+    })
 }
 
 /// The text without a byte order mark; what is not UTF-8 is refused at its place.
@@ -189,18 +219,7 @@ fn scene_section(root: &Section<'_>) -> Result<SceneSection, LoadError> {
     let keys = ["geometry", "up", "units", "position_units", "maintenance_factor"];
     section.only(&keys, &[])?;
     let list = section.require("geometry", expected)?;
-    let files = list.array(expected)?;
-    if files.is_empty() {
-        return Err(list.unexpected(expected));
-    }
-    let mut geometry: Vec<Spanned<String>> = Vec::new();
-    for file in files {
-        let name = file.string("the name of an OBJ, glTF or GLB file")?;
-        if geometry.iter().any(|earlier| earlier.value == name) {
-            return Err(file.error(format!("\"{name}\" is listed twice; expected each file once")));
-        }
-        geometry.push(file.spanned(name.to_owned()));
-    }
+    let geometry = geometry_files(&list, expected)?;
     let up = match section.get("up").map(|up| up.name(&["y", "z"], &[])).transpose()? {
         None => None,
         Some("y") => Some(UpAxis::Y),
@@ -219,4 +238,21 @@ fn scene_section(root: &Section<'_>) -> Result<SceneSection, LoadError> {
         position_unit: units::read(&section, "position_units")?,
         maintenance_factor,
     })
+}
+
+/// A list of geometry files, each once.
+fn geometry_files(list: &Value<'_>, expected: &str) -> Result<Vec<Spanned<String>>, LoadError> {
+    let files = list.array(expected)?;
+    if files.is_empty() {
+        return Err(list.unexpected(expected));
+    }
+    let mut geometry: Vec<Spanned<String>> = Vec::new();
+    for file in files {
+        let name = file.string("the name of an OBJ, glTF or GLB file")?;
+        if geometry.iter().any(|earlier| earlier.value == name) {
+            return Err(file.error(format!("\"{name}\" is listed twice; expected each file once")));
+        }
+        geometry.push(file.spanned(name.to_owned()));
+    }
+    Ok(geometry)
 }

@@ -3,6 +3,7 @@
 mod arrays;
 mod attacks;
 mod bad_input;
+mod blinds;
 mod cameras;
 mod corpus;
 mod glazing;

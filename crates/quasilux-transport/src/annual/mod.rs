@@ -7,14 +7,20 @@
 //! independent replicates, mesh included, so that the spread of an hour's values makes its
 //! interval.
 //!
-//! Points are simulated block by block (`year`), and a block is over before the next begins: nobody
-//! holds the hours of all points.
+//! Points are simulated block by block (`state`), and a block is over before the next begins
+//! (`year`): nobody holds the hours of all points. Blinds make two states of a room, each of which
+//! has its hours; when they close, the sun on the points may decide (`sunlit`).
 
 mod coefficients;
 mod hours;
 mod mesh;
 mod paths;
+mod results;
+mod state;
 mod sun_disks;
+mod sunlit;
 mod year;
 
-pub use year::{PointOfYear, YearProgress, YearWork, simulate_year};
+pub use results::{PointOfYear, YearProgress, YearWork};
+pub use sunlit::sunlit_points;
+pub use year::{ClosedHours, YearHours, simulate_year};

@@ -17,7 +17,8 @@ use crate::world::visibility::{Answer, LightSample, ShadowQueue};
 use glam::DVec3;
 use libm::{cos, sin};
 use quasilux_sampling::Sampler;
-use quasilux_sky::SUN_RADIUS_DEG;
+use quasilux_scene::Environment;
+use quasilux_sky::{SUN_RADIUS_DEG, WeatherSky};
 use std::f64::consts::TAU;
 
 /// Rays to the rim that decide.
@@ -60,6 +61,8 @@ struct SeenDisk {
     sun: usize,
     /// Whether a part of it may be seen.
     is_part: bool,
+    /// What it gives by the rays that decide alone, in lx.
+    glanced_lx: f64,
 }
 
 impl SunDisks {
@@ -83,16 +86,22 @@ impl SunDisks {
                 continue;
             }
             let who = seen.len() as u32;
-            seen.push(SeenDisk { sun, is_part: false });
+            seen.push(SeenDisk { sun, is_part: false, glanced_lx: 0.0 });
             let rim = (0..RIM).map(|k| [1.0, (k as f64 + 0.5) / RIM as f64]);
             for u in rim.chain([[0.0; 2]]) {
-                ask(context, &mut queue, who, &vertex, it.direction_on_disk(u), 1.0);
+                let direction = it.direction_on_disk(u);
+                ask(context, &mut queue, who, &vertex, direction, n.dot(direction));
             }
         }
         let asked = RIM + 1;
         let mut open = vec![0; seen.len()];
-        queue.answer_all(&context.world, |Answer { who, bounces, .. }: Answer<S>| {
-            open[who as usize] += usize::from(bounces.is_some());
+        queue.answer_all(&context.world, |Answer { who, bounces, light, .. }: Answer<S>| {
+            if bounces.is_some() {
+                let disk = &mut seen[who as usize];
+                let normal_lx = suns[disk.sun].normal_illuminance_lx;
+                disk.glanced_lx += light.luminance() * normal_lx / asked as f64;
+                open[who as usize] += 1;
+            }
         });
         // Over a cell they say little: each place in it may see the sun or not.
         let is_cell = matches!(target, Target::Cell { .. });
@@ -102,6 +111,16 @@ impl SunDisks {
         let sums = vec![vec![0; seen.len()]; replicates as usize];
         let rays = vec![[0; 2]; replicates as usize];
         Self { seen, sums, rays, deciding_rays: queue.rays }
+    }
+
+    /// The hours whose sun gives more than this illuminance in lx, by the rays that decide.
+    pub(super) fn hours_above<'a>(
+        &'a self,
+        suns: &'a [ShiningSun],
+        lx: f64,
+    ) -> impl Iterator<Item = usize> {
+        let above = self.seen.iter().filter(move |disk| disk.glanced_lx > lx);
+        above.map(|disk| suns[disk.sun].hour)
     }
 
     /// Has a replicate look at them as often as so many paths want; returns the rays.
@@ -160,6 +179,19 @@ impl SunDisks {
 }
 
 impl ShiningSun {
+    /// The sun of an hour, if it shines.
+    pub(super) fn new(hour: usize, of: &WeatherSky, environment: &Environment) -> Option<Self> {
+        (of.sun_normal_illuminance_lx > 0.0).then(|| {
+            let direction = environment.towards(of.sun);
+            Self {
+                hour,
+                frame: Frame::around(direction),
+                direction,
+                normal_illuminance_lx: of.sun_normal_illuminance_lx,
+            }
+        })
+    }
+
     /// A direction to the disk, evenly over it by two coordinates; the rim for 1.
     fn direction_on_disk(&self, [u, v]: [f64; 2]) -> DVec3 {
         let aside = sin(SUN_RADIUS_DEG.to_radians()) * u.sqrt();

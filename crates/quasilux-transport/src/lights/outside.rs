@@ -36,6 +36,10 @@ use std::f64::consts::TAU;
 /// What a cosine counts at least: openings reach further than their centres.
 const MIN_COSINE: f64 = 0.1;
 
+/// Of a portal that a place lies in, but for this part of the way to its corners, it sees nothing:
+/// rounding alone would say on which side it is.
+const MIN_HEIGHT: f64 = 1e-6;
+
 /// The sky, the ground and the sun of a scene.
 pub(crate) struct OutsideLight<'a> {
     environment: &'a Environment,
@@ -236,7 +240,12 @@ impl<'a> OutsideLight<'a> {
     fn seen_portal(&self, portal: &Portal, place: Asking) -> Option<Seen> {
         let corners = portal.corners.points();
         let [a, b, c] = corners;
-        let side = portal.n.dot(place.position - a).signum();
+        let height_m = portal.n.dot(place.position - a);
+        let far_m = corners.map(|corner| corner.distance(place.position));
+        if height_m.abs() <= MIN_HEIGHT * far_m[0].max(far_m[1]).max(far_m[2]) {
+            return None;
+        }
+        let side = height_m.signum();
         let triangle = SeenTriangle::new(corners, side * portal.n, place.position)?;
         let towards = ((a + b + c) / 3.0 - place.position).normalize_or_zero();
         let cos = place.side.map_or(1.0, |n| n.dot(towards).max(0.0) + MIN_COSINE);

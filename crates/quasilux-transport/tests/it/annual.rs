@@ -1,15 +1,20 @@
 //! Hours of a year, against quadrature, and against runs over single hours.
 
+use crate::images::add_panel;
 use crate::outside::{Numbers, Room, room_with_window, through};
 use crate::scenes::point_light;
 use glam::DVec3;
-use quasilux_scene::{Environment, Opening, Scene, Sun};
+use quasilux_scene::bsdf::Translucent;
+use quasilux_scene::{Bsdf, Environment, Opening, Rgb, Scene, Sun};
 use quasilux_sky::{
     Distribution, Irradiance, Perez, SUN_RADIUS_DEG, Sky, SkyLevel, SkyPoint, WeatherSky,
 };
 use quasilux_transport::interval::t_quantile_for;
 use quasilux_transport::settings::Settings;
-use quasilux_transport::{Control, EstimatorKind, PointOfYear, simulate, simulate_year};
+use quasilux_transport::{
+    ClosedHours, Control, EstimatorKind, PointOfYear, YearHours, simulate, simulate_year,
+    sunlit_points,
+};
 
 /// Skies and suns at random, clear and overcast, low and high.
 fn hours(numbers: &mut Numbers, count: usize) -> Vec<WeatherSky> {
@@ -38,6 +43,10 @@ fn moment(of: &Environment, hour: &WeatherSky) -> Environment {
 }
 
 fn year(scene: &Scene, hours: &[WeatherSky], settings: &Settings) -> Vec<PointOfYear> {
+    year_with_blinds(scene, YearHours { skies: hours, closed: None }, settings)
+}
+
+fn year_with_blinds(scene: &Scene, hours: YearHours<'_>, settings: &Settings) -> Vec<PointOfYear> {
     let mut all = Vec::new();
     let mut go_on = |_| Control::Continue;
     simulate_year(scene, hours, settings, &mut go_on, |point| point, |point| all.push(point));
@@ -174,4 +183,74 @@ fn threads_change_no_bit() {
         assert_eq!((a.samples, a.is_done, a.invalid), (64, false, 0));
     }
     assert_eq!(one.len(), 4);
+}
+
+/// With blinds that are closed in some hours, those have the values of the room with closed blinds
+/// and the others those of the room with open ones, bit for bit; the sun counts as if they were
+/// open.
+#[test]
+fn blinds_choose_between_two_rooms() {
+    let mut numbers = Numbers(13);
+    let Room { mut scene, window } = room_with_window(&mut numbers, 0.6);
+    let hours = hours(&mut numbers, 12);
+    scene.environment = Some(environment(&mut numbers, window));
+    let mut closed = scene.clone();
+    let sheet = Bsdf::Translucent(Translucent {
+        reflectance: Rgb::grey(0.6),
+        transmittance: Rgb::grey(0.1),
+    });
+    add_panel(&mut closed, window.origin, window.u, window.v, sheet);
+    let settings = Settings { max_samples: Some(64), rel_tol: 0.0, ..Settings::default() };
+    let is_closed: Vec<bool> = (0..hours.len()).map(|hour| hour % 3 == 1).collect();
+    let with = |is_closed: &[bool]| {
+        let closed = Some(ClosedHours { scene: &closed, is_closed });
+        year_with_blinds(&scene, YearHours { skies: &hours, closed }, &settings)
+    };
+    let (mixed, never) = (with(&is_closed), year(&scene, &hours, &settings));
+    let (all_closed, none_closed) = (with(&[true; 12]), with(&[false; 12]));
+    for (number, mixed) in mixed.iter().enumerate() {
+        assert_eq!(none_closed[number].illuminance_lx, never[number].illuminance_lx);
+        assert_eq!(mixed.sun_lx, never[number].sun_lx);
+        assert_eq!(all_closed[number].sun_lx, never[number].sun_lx);
+        let mean = |point: &PointOfYear, hour| interval(&point.illuminance_lx, hour)[0];
+        for (hour, is_closed) in is_closed.iter().enumerate() {
+            let [own, other] = [&all_closed[number], &never[number]];
+            let [own, other] = if *is_closed { [own, other] } else { [other, own] };
+            // Places of the sun depend on the hours that share them.
+            let [found, own, other] = [mixed, own, other].map(|point| mean(point, hour));
+            assert!((found / own - 1.0).abs() < 0.3, "{hour}: {found} not {own}");
+            assert!((found / other - 1.0).abs() > 0.5, "{hour}: {found} as {other}");
+        }
+    }
+}
+
+/// Points in the sun are counted as a quadrature over its disk has them.
+#[test]
+fn points_in_the_sun_are_counted() {
+    let mut numbers = Numbers(17);
+    let mut sunlit = 0;
+    for _ in 0..6 {
+        let Room { mut scene, window } = room_with_window(&mut numbers, 0.6);
+        let hours = hours(&mut numbers, 40);
+        let environment = environment(&mut numbers, window);
+        scene.environment = Some(environment.clone());
+        let lx = 1000.0;
+        let places = scene.sensors[0].points();
+        let counts = sunlit_points(&scene, &hours, &Settings::default(), 0..places.len(), lx);
+        for (hour, count) in hours.iter().zip(counts) {
+            let towards = environment.towards(hour.sun);
+            let seen = |place: &quasilux_scene::SensorPoint| {
+                let share = seen_of_sun(&window, place.position, towards);
+                let cos = place.normal.dot(towards).max(0.0);
+                [share * cos * hour.sun_normal_illuminance_lx, share]
+            };
+            let all: Vec<[f64; 2]> = places.iter().map(seen).collect();
+            // Seven rays need not see the edge of a shadow.
+            let edges = all.iter().filter(|it| it[1] > 0.0 && it[1] < 0.3).count();
+            let expected = all.iter().filter(|it| it[0] > lx).count();
+            assert!(count.abs_diff(expected) <= edges, "{count}, not {expected}");
+            sunlit += expected;
+        }
+    }
+    assert!(sunlit > 5, "{sunlit}");
 }

@@ -3,9 +3,9 @@
 use crate::images::add_panel;
 use crate::scenes::{diffuse, mirror, points, room};
 use glam::DVec3;
-use quasilux_scene::bsdf::Pane;
+use quasilux_scene::bsdf::{Pane, Translucent};
 use quasilux_scene::light::AreaLight;
-use quasilux_scene::{Bsdf, Environment, Light, Opening, Scene, Sun};
+use quasilux_scene::{Bsdf, Environment, Light, Opening, Rgb, Scene, Sun};
 use quasilux_sky::{CieType, Distribution, Panorama, Sky, SkyLevel, SkyPoint};
 use quasilux_transport::{Estimates, EstimatorKind, Settings, simulate};
 use std::f64::consts::PI;
@@ -319,6 +319,37 @@ fn the_sun_of_a_picture_is_asked_for() {
     for other in &found[1..] {
         for ([a, half_a], [b, half_b]) in found[0].iter().zip(other) {
             assert!((a - b).abs() <= 1.5 * (half_a + half_b), "{found:?}");
+        }
+    }
+}
+
+/// Under a diffusing sheet in an even world a point gets the share of its light that the sheet lets
+/// through and the share that it reflects, however the sheet lies and wherever the point is below
+/// it: a place on the sheet does not see the sheet.
+#[test]
+fn diffusing_sheets_let_their_share_of_the_sky_through() {
+    let mut numbers = Numbers(31);
+    for seed in 0..8 {
+        let mut scene = crate::images::empty();
+        let n = DVec3::new(numbers.next() - 0.5, numbers.next() - 0.5, 1.0).normalize();
+        let (u, v) = n.any_orthonormal_pair();
+        let at = DVec3::new(numbers.next(), numbers.next(), numbers.next());
+        let transmittance = numbers.within(0.1, 0.7);
+        let sheet =
+            Translucent { reflectance: Rgb::grey(0.2), transmittance: Rgb::grey(transmittance) };
+        add_panel(&mut scene, at - 50.0 * (u + v), 100.0 * u, 100.0 * v, Bsdf::Translucent(sheet));
+        let below = |numbers: &mut Numbers| {
+            let aside = u * (numbers.next() - 0.5) + v * (numbers.next() - 0.5);
+            at + aside - n * numbers.within(0.01, 0.3)
+        };
+        let places: Vec<(DVec3, DVec3)> = (0..3).map(|_| (below(&mut numbers), n)).collect();
+        scene.sensors = vec![points("below", &places)];
+        let cd_m2 = 500.0;
+        scene.environment = Some(even(cd_m2));
+        let expected = PI * cd_m2 * (transmittance + 0.2);
+        for [lx, half_width] in intervals(&run(&scene, 0.002, seed)) {
+            let allowed = 2.0 * half_width + 2e-3 * expected;
+            assert!((lx - expected).abs() <= allowed, "{seed}: {lx} ± {half_width}, {expected}");
         }
     }
 }

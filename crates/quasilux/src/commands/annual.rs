@@ -13,11 +13,14 @@ use crate::project::{self, Project};
 use crate::{interrupt, results};
 use quasilux_report::PictureOf;
 use quasilux_report::annual::{
-    AnnualReport, AnnualRun, Calendar, PointOfHours, SensorPoints, Thresholds, annual_csv,
-    annual_json, annual_maps, annual_table, hours_csv, hours_png,
+    AnnualReport, AnnualRun, Calendar, Dimming, PointOfHours, SensorPoints, Thresholds, annual_csv,
+    annual_json, annual_maps, annual_table, closed_hours, hours_csv, hours_png,
 };
+use quasilux_scene::Blinds;
 use quasilux_sky::Weather;
-use quasilux_transport::{Control, Settings, YearProgress, YearWork, simulate_year};
+use quasilux_transport::{
+    ClosedHours, Control, Settings, YearHours, YearProgress, YearWork, simulate_year,
+};
 use std::io::{self, Write};
 use std::path::Path;
 use std::time::Instant;
@@ -51,10 +54,12 @@ pub(crate) fn annual(arguments: &AnnualArguments) -> Result<Exit, CliError> {
     let scene = &project.loaded.scene;
     let occupied_h = arguments.occupied.clone();
     let mut report = AnnualReport::begin(scene, weather, &calendar, occupied_h, run);
+    report.dimming = project.loaded.electric_light.map(|light| Dimming::begin(light, scene));
     let begin = Instant::now();
+    let blinds = project.loaded.blinds.as_ref();
     let pool = pool(threads)?;
     results::stream_atomic(&folder.join(HOURS_FILE), |file| {
-        pool.install(|| simulate(&mut report, file))
+        pool.install(|| simulate(&mut report, blinds, file))
     })?;
     report.run.seconds = begin.elapsed().as_secs_f64();
     write(&report, &folder, project.title())?;
@@ -84,7 +89,11 @@ fn weather(project: &Project) -> Result<&Weather, CliError> {
 }
 
 /// Simulates all points, and writes their hours as they come.
-fn simulate(report: &mut AnnualReport<'_>, file: &mut (dyn Write + Send)) -> io::Result<()> {
+fn simulate(
+    report: &mut AnnualReport<'_>,
+    blinds: Option<&Blinds>,
+    file: &mut (dyn Write + Send),
+) -> io::Result<()> {
     let (scene, calendar) = (report.scene, report.calendar);
     let points: usize = scene.sensors.iter().map(quasilux_scene::Sensor::len).sum();
     let intervals = calendar.intervals.len();
@@ -97,15 +106,20 @@ fn simulate(report: &mut AnnualReport<'_>, file: &mut (dyn Write + Send)) -> io:
         if interrupt::requested() { Control::Stop } else { Control::Continue }
     };
     let digest =
-        |point| PointOfHours::new(&point, calendar, &Thresholds::default(), settings.confidence);
-    let work = simulate_year(scene, &calendar.skies, &settings, &mut progress, digest, |point| {
-        let PointOfHours { summary, illuminance_lx, half_width_lx } = point;
-        let numbers = illuminance_lx.iter().chain(&half_width_lx);
+        |point| PointOfHours::new(point, calendar, &Thresholds::default(), settings.confidence);
+    let is_closed = blinds.map(|blinds| closed_hours(blinds, scene, calendar, &settings));
+    report.closed.clone_from(&is_closed);
+    let closed = blinds.zip(is_closed.as_deref());
+    let closed =
+        closed.map(|(Blinds { closed: scene, .. }, is_closed)| ClosedHours { scene, is_closed });
+    let hours = YearHours { skies: &calendar.skies, closed };
+    let work = simulate_year(scene, hours, &settings, &mut progress, digest, |point| {
+        let numbers = point.illuminance_lx.iter().chain(&point.half_width_lx);
         let bytes: Vec<u8> = numbers.flat_map(|x| x.to_le_bytes()).collect();
         if written.is_ok() {
             written = file.write_all(&bytes);
         }
-        report.push(summary, &illuminance_lx);
+        report.push(&point);
     });
     report.run.work = work;
     written?;

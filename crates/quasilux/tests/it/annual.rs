@@ -51,11 +51,11 @@ fn hours_under_the_open_sky_are_those_of_the_file() {
     assert_eq!(rows.len(), 48);
     let figure = |row: usize, column: usize| rows[row][column].parse::<f64>().unwrap();
     for (row, lx) in [(10, 0.0), (11, 9000.0), (36, 250.0)] {
-        assert!((figure(row, 8) - lx).abs() <= 0.01 * lx, "{row}: {}", figure(row, 8));
+        assert!((figure(row, 9) - lx).abs() <= 0.01 * lx, "{row}: {}", figure(row, 9));
     }
     let sine = libm::sin(figure(12, 4).to_radians());
     let noon = 12_000.0 + 60_000.0 * sine;
-    assert!((figure(12, 8) / noon - 1.0).abs() < 0.005, "{} not {noon}", figure(12, 8));
+    assert!((figure(12, 9) / noon - 1.0).abs() < 0.005, "{} not {noon}", figure(12, 9));
     let document = parsed(&folder.read("out/annual.json"));
     let point = |key: &str| number(&document, &format!("/sensors/0/points/1/{key}"));
     // Of 20 occupied hours two have more than 300 lx, and one has a part of it.
@@ -106,4 +106,52 @@ fn limits_and_threads() {
         std::fs::read(folder.path(&format!("{out}/hours.npy"))).unwrap()
     };
     assert_eq!(run("1", "one"), run("3", "three"));
+}
+
+/// A sheet over the sensor that lets half of the light through: in the hour in which the sun shines
+/// on the points, or in those of a schedule, hours have half of it. Lamps are dimmed by what is
+/// left.
+#[test]
+fn blinds_close_and_lamps_are_dimmed() {
+    let blinds = "[blinds]\ngeometry = [\"sheet.obj\"]\n\
+        materials.sheet = { reflectance = 0, transmittance = 0.5 }\n";
+    let light = "[electric_light]\nsensor = \"roof\"\ntarget_lx = 500\npower_w = 100\n";
+    let scheduled = "control = \"schedule\"\nschedule = \"blinds.csv\"\ncolumn = \"roof\"\n";
+    let sheet = "usemtl sheet\nv -99 -99 1.1\nv 99 -99 1.1\nv 99 99 1.1\nv -99 99 1.1\nf 1 2 3 4\n";
+    for (name, control, closed_at) in [
+        ("annual_blinds_sun", "", [false, true, false]),
+        ("annual_blinds_schedule", scheduled, [true, false, true]),
+    ] {
+        let folder = folder(name, &format!("{WEATHER}{blinds}{control}{light}"));
+        folder.write("sheet.obj", sheet);
+        let rows = (0..48).map(|hour| format!("{hour},{}\n", i32::from(hour != 12)));
+        folder.write("blinds.csv", "hour,roof\n".to_owned() + &rows.collect::<String>());
+        let done = folder.quasilux(&["annual", "a.toml", "--out", "out", "--rel-tol", "1%"]);
+        assert_eq!(done.code, Some(0), "{}", done.stderr);
+        let hours = folder.read("out/hours.csv");
+        let rows: Vec<Vec<&str>> =
+            hours.lines().skip(1).map(|row| row.split(',').collect()).collect();
+        let figure = |row: usize, column: usize| rows[row][column].parse::<f64>().unwrap();
+        let noon = 12_000.0 + 60_000.0 * libm::sin(figure(12, 4).to_radians());
+        let expected = [9000.0, noon, 250.0];
+        let mut power_w = 1700.0;
+        for ((row, lx), is_closed) in [11, 12, 36].into_iter().zip(expected).zip(closed_at) {
+            let lx = if is_closed { 0.5 * lx } else { lx };
+            let (found, blinds) = (figure(row, 9), figure(row, 8));
+            assert!((found / lx - 1.0).abs() < 0.01, "{name} {row}: {found}, not {lx}");
+            assert_eq!(blinds, f64::from(u8::from(is_closed)), "{name} {row}");
+            power_w += 100.0 * (1.0 - lx / 500.0).max(0.0);
+        }
+        let document = parsed(&folder.read("out/annual.json"));
+        let of = |key: &str| number(&document, key);
+        let closed = closed_at.iter().filter(|closed| **closed).count() as f64;
+        assert_eq!(of("/blinds/closed_occupied"), closed);
+        // Of 20 occupied hours 17 are dark. The sun on open blinds counts all the same.
+        let kwh = of("/electric_light/energy_kwh");
+        assert!((kwh - 1e-3 * power_w).abs() < 2e-3, "{kwh}, not {power_w} Wh");
+        assert_eq!(of("/electric_light/full_power_kwh"), 2.0);
+        assert_eq!(of("/sensors/0/points/0/sunlit_hours"), 1.0);
+        assert!(done.stdout.contains("blinds closed in"), "{}", done.stdout);
+        assert!(done.stdout.contains("kWh a year"), "{}", done.stdout);
+    }
 }

@@ -1,0 +1,59 @@
+//! What a run over a year finds.
+
+use crate::settings::Settings;
+
+/// What the hours of one sensor point are, in all replicates.
+#[derive(Clone, Debug)]
+pub struct PointOfYear {
+    /// The number of the point, through all sensors.
+    pub number: usize,
+    /// Illuminances in lx by replicate and hour, in the order of the hours that were given.
+    pub illuminance_lx: Vec<Vec<f32>>,
+    /// What comes straight from the sun while blinds are open, whether they are or not.
+    pub sun_lx: Vec<Vec<f32>>,
+    /// Paths in each replicate, of all states of the blinds.
+    pub samples: u64,
+    /// The root mean square over hours of half-width over value; `None` with fewer than two
+    /// replicates.
+    pub relative_half_width: Option<f64>,
+    /// Whether that is within the tolerance.
+    pub is_done: bool,
+    /// Contributions that could not be added.
+    pub invalid: u64,
+}
+
+/// How far a run is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct YearProgress {
+    /// Points that are over, of how many.
+    pub points: [usize; 2],
+    /// Rays so far.
+    pub rays: u64,
+}
+
+/// What a run took.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct YearWork {
+    /// Rays of all kinds.
+    pub rays: u64,
+    /// Paths of all points in all replicates.
+    pub paths: u64,
+    /// Whether it came to its end.
+    pub is_complete: bool,
+}
+
+impl PointOfYear {
+    /// A point of which nothing is known yet.
+    pub(super) fn blank(number: usize, settings: &Settings, hours: usize) -> Self {
+        let none = vec![vec![0.0; hours]; settings.effective_replicates() as usize];
+        Self {
+            number,
+            illuminance_lx: none.clone(),
+            sun_lx: none,
+            samples: 0,
+            relative_half_width: Some(0.0),
+            is_done: true,
+            invalid: 0,
+        }
+    }
+}
