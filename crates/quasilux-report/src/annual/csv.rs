@@ -59,7 +59,7 @@ pub fn hours_csv(report: &AnnualReport<'_>) -> String {
             sky.map(|it| it.sun_normal_illuminance_lx),
         ];
         let is_closed = |sky: usize| report.closed.as_ref().is_some_and(|closed| closed[sky]);
-        let blinds = interval.sky.map(|sky| f64::from(u8::from(is_closed(sky))));
+        let blinds = interval.sky.map(|sky| u8::from(is_closed(sky)).to_string());
         let inside = report.mean_lx.iter().map(|lx| interval.is_known.then_some(lx[number]));
         let mut fields = vec![
             interval.month.to_string(),
@@ -67,8 +67,9 @@ pub fn hours_csv(report: &AnnualReport<'_>) -> String {
             exact(interval.middle_h),
             u8::from(interval.is_occupied).to_string(),
         ];
-        let figures = outside.into_iter().chain([blinds]).chain(inside);
-        fields.extend(figures.map(|x| x.map(exact).unwrap_or_default()));
+        fields.extend(outside.map(|x| x.map(exact).unwrap_or_default()));
+        fields.push(blinds.unwrap_or_default());
+        fields.extend(inside.map(|x| x.map(exact).unwrap_or_default()));
         text += &(fields.join(",") + "\n");
     }
     text

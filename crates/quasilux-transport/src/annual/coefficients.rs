@@ -4,7 +4,7 @@
 //! Technology 15, 1983).
 
 use super::mesh::{Mesh, Share, Spacing};
-use super::paths::{TargetReplicate, shines_beside, trace};
+use super::paths::{TargetReplicate, dark_ways, trace};
 use crate::context::{Context, Stream};
 use crate::lights::Suns;
 use crate::path::daylight::{FromOutside, Whence};
@@ -92,16 +92,16 @@ impl Meshes {
         Self { sky, suns_mesh, suns, sun_of_node, per_sr, sharpened_sky, sharpened_suns }
     }
 
-    /// Finds out whether the sun shines past the openings, by paths from these targets that do not
-    /// count: many places of the sun are asked there if it does. All replicates learn the same.
+    /// Finds out on which ways the sun shines, by paths from these targets that do not count: on
+    /// others few places of the sun are asked. All replicates learn the same.
     pub(super) fn learn<S: Spectrum>(
         all: &mut [Self],
         context: &Context<'_, S>,
         targets: &[Target],
     ) {
         let Some(first) = all.first() else { return };
-        if shines_beside(context, &first.suns, all.len() as u32, targets) {
-            all.iter_mut().for_each(|meshes| meshes.suns.note_beside());
+        for way in dark_ways(context, &first.suns, all.len() as u32, targets) {
+            all.iter_mut().for_each(|meshes| meshes.suns.note_dark(way));
         }
     }
 
@@ -147,7 +147,7 @@ impl Sums {
 
     fn add(&mut self, meshes: &Meshes, FromOutside { whence, light }: FromOutside) {
         let (direction, is_mirrored) = match whence {
-            Whence::Sun(sun) | Whence::SunBeside(sun) => {
+            Whence::Sun(sun, _) => {
                 return add(&mut self.suns[sun as usize], light, &mut self.invalid);
             }
             Whence::Outside(direction) => (direction, false),

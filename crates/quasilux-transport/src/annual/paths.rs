@@ -1,7 +1,7 @@
 //! Paths from a sensor point that keep what they find outside by its direction.
 
 use crate::context::{Context, Stream};
-use crate::lights::Suns;
+use crate::lights::{SunWay, Suns};
 use crate::path::daylight::{FromOutside, Whence};
 use crate::path::end::Rest;
 use crate::path::start::{Measurement, Start};
@@ -13,7 +13,7 @@ use quasilux_sampling::Sampler;
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// So many points, each with so many paths, say whether the sun shines past the openings.
+/// So many points, each with so many paths, say on which ways the sun shines.
 const PILOT_POINTS: usize = 64;
 const PILOT_PATHS: u64 = 64;
 
@@ -70,25 +70,30 @@ pub(super) fn trace<S: Spectrum>(
     wave.take_rays()
 }
 
-/// Whether paths of a replicate that counts nowhere, from targets all over the scene, find a sun
-/// that stands behind no opening.
-pub(super) fn shines_beside<S: Spectrum>(
+/// The ways on which paths of a replicate that counts nowhere, from targets all over the scene,
+/// find no sun.
+pub(super) fn dark_ways<S: Spectrum>(
     context: &Context<'_, S>,
     suns: &Suns,
     replicate: u32,
     targets: &[Target],
-) -> bool {
-    let mut suns = suns.clone();
-    suns.note_beside();
+) -> Vec<SunWay> {
     let step = targets.len().div_ceil(PILOT_POINTS).max(1);
     let pilots: Vec<usize> = (step / 2..targets.len()).step_by(step).collect();
-    pilots.into_par_iter().any(|number| {
+    let look = |number: usize| {
         let of = TargetReplicate { number, target: &targets[number], replicate };
-        let mut is_found = false;
-        let mut wave = PathWave::default();
-        trace(context, &suns, of, 0..PILOT_PATHS, &mut wave, |found| {
-            is_found |= matches!(found.whence, Whence::SunBeside(_)) && found.light > 0.0;
+        let mut shining = Vec::new();
+        trace(context, suns, of, 0..PILOT_PATHS, &mut PathWave::default(), |found| {
+            if let Whence::Sun(_, way) = found.whence
+                && found.light > 0.0
+                && !shining.contains(&way)
+            {
+                shining.push(way);
+            }
         });
-        is_found
-    })
+        shining
+    };
+    let shining: Vec<SunWay> = pilots.into_par_iter().flat_map_iter(look).collect();
+    let all = [SunWay::Beside, SunWay::Through, SunWay::OnSheet];
+    all.into_iter().filter(|way| !shining.contains(way)).collect()
 }

@@ -25,7 +25,7 @@ pub(crate) use facet_group::EmitterPlace;
 pub(crate) use outside::OutsideLight;
 pub(crate) use pointlike::{Incidence, LightCentre, PointLikes};
 pub(crate) use selection::{Asking, ChoiceWork, tables_bytes};
-pub(crate) use suns::{SunChoice, SunSample, Suns};
+pub(crate) use suns::{SunChoice, SunSample, SunWay, Suns};
 
 use crate::lights::images::LightPathClass;
 use crate::purpose::{Purpose, PurposeRecorder};

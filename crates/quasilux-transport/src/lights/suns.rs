@@ -9,9 +9,20 @@ use glam::{DVec3, Vec3};
 /// So many suns are asked at a vertex at most: each costs about one ray, the vertex some ten, and
 /// every sun that is asked is known better.
 const MAX_ASKED: f64 = 32.0;
-/// Where no sun was found to shine past the openings one is asked there at so many of the vertices,
-/// for nobody can know.
+/// On ways on which no sun was found to shine, one is asked at so many of the vertices, for nobody
+/// can know.
 const RARELY: f64 = 0.125;
+
+/// How a sun may shine on a vertex.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum SunWay {
+    /// On one side, past all openings: these need not be complete.
+    Beside,
+    /// On one side, through an opening.
+    Through,
+    /// On a sheet that lets light through to its other side.
+    OnSheet,
+}
 
 /// Directions in which the sun may stand.
 #[derive(Clone, Debug, Default)]
@@ -20,8 +31,8 @@ pub(crate) struct Suns {
     directions: Vec<DVec3>,
     /// The same by coordinate, for who looks at all of them.
     coordinates: [Vec<f32>; 3],
-    /// Whether many are asked past the openings, too.
-    shines_beside: bool,
+    /// Ways on which no sun was found to shine.
+    dark: Vec<SunWay>,
 }
 
 /// Numbers of suns above the horizon of a vertex; working space.
@@ -29,7 +40,7 @@ pub(crate) struct Suns {
 pub(crate) struct SunChoice {
     /// What each sun is to the vertex.
     sides: Vec<u8>,
-    /// The suns of one kind.
+    /// Those of one way.
     chosen: Vec<u32>,
 }
 
@@ -42,8 +53,7 @@ const ROUNDING: f32 = 1e-6;
 /// The light of one of the suns, of 1 lx on a plane across its rays.
 pub(crate) struct SunSample<S> {
     pub(crate) sun: u32,
-    /// Whether it stands behind no opening.
-    pub(crate) is_beside: bool,
+    pub(crate) way: SunWay,
     pub(crate) light_sample: LightSample<S>,
 }
 
@@ -68,13 +78,12 @@ impl Suns {
         }
     }
 
-    /// Notes that the sun shines past the openings: many are asked there, too.
-    pub(crate) fn note_beside(&mut self) {
-        self.shines_beside = true;
+    /// Notes that no sun was found to shine on a way: few are asked there.
+    pub(crate) fn note_dark(&mut self, way: SunWay) {
+        self.dark.push(way);
     }
 
-    /// Some of the suns, each with its chance: those that stand behind an opening, and some of the
-    /// others, which may shine through what is no opening: openings need not be complete.
+    /// Some of the suns above the horizon of a vertex, each with its chance.
     pub(crate) fn samples<S: Spectrum>(
         &self,
         outside: &OutsideLight<'_>,
@@ -84,13 +93,17 @@ impl Suns {
         mut take: impl FnMut(SunSample<S>),
     ) {
         choice.sort(self, outside, vertex);
-        let asked_beside = if self.shines_beside { MAX_ASKED } else { RARELY };
-        for (side, asked) in [(THROUGH, MAX_ASKED), (BESIDE, asked_beside)] {
+        let ways: &[SunWay] = match vertex.only_side() {
+            Some(_) => &[SunWay::Through, SunWay::Beside],
+            None => &[SunWay::OnSheet],
+        };
+        for &way in ways {
+            let asked = if self.dark.contains(&way) { RARELY } else { MAX_ASKED };
             // Most often none, whatever suns there are.
             if u >= asked {
                 continue;
             }
-            let chosen = choice.of_side(side);
+            let chosen = choice.of_way(way);
             let one_in = (chosen.len() as f64 / asked).max(1.0);
             let places = (0..).map(|k| ((u + f64::from(k)) * one_in) as usize);
             for &sun in places.map_while(|place| chosen.get(place)) {
@@ -99,7 +112,7 @@ impl Suns {
                 let light = vertex.weight(direction) * lx;
                 let sample = LightSample::unless_dark(direction, outside.beyond_m(), light, lx);
                 if let Some(light_sample) = sample {
-                    take(SunSample { sun, is_beside: side == BESIDE, light_sample });
+                    take(SunSample { sun, way, light_sample });
                 }
             }
         }
@@ -121,15 +134,20 @@ impl SunChoice {
         }
     }
 
-    /// The suns of one kind.
-    fn of_side(&mut self, wanted: u8) -> &[u32] {
+    /// The suns that may shine on a way.
+    fn of_way(&mut self, way: SunWay) -> &[u32] {
+        let [low, high] = match way {
+            SunWay::Beside => [BESIDE, BESIDE],
+            SunWay::Through => [THROUGH, THROUGH],
+            SunWay::OnSheet => [BESIDE, THROUGH],
+        };
         let Self { sides, chosen } = self;
         chosen.resize(sides.len(), 0);
         let mut count = 0;
         for (sun, side) in (0..).zip(&*sides) {
             // Without branches: what is not wanted is written over.
             chosen[count] = sun;
-            count += usize::from(*side == wanted);
+            count += usize::from(low <= *side && *side <= high);
         }
         &chosen[..count]
     }

@@ -1,7 +1,7 @@
 //! What paths find outside, kept by the direction that it comes from: any sky and any sun can be
 //! put there when they are over.
 
-use crate::lights::Suns;
+use crate::lights::{SunWay, Suns};
 use glam::DVec3;
 use std::collections::VecDeque;
 
@@ -12,10 +12,8 @@ pub(crate) enum Whence {
     Outside(DVec3),
     /// The same past mirrors, where nobody can ask for the sun.
     Mirrored(DVec3),
-    /// One of the suns.
-    Sun(u32),
-    /// One of them that stands behind no opening.
-    SunBeside(u32),
+    /// One of the suns, on a way.
+    Sun(u32, SunWay),
 }
 
 /// What a path found.
