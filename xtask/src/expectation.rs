@@ -18,9 +18,12 @@ pub(crate) struct Expected {
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Expectation {
+    /// The project file whose number it is; without it, all of the folder.
+    pub(crate) project: Option<String>,
     /// Name of the sensor.
     pub(crate) sensor: String,
-    /// `illuminance_lx` or `direct_lx` of points, or the key of a summary figure.
+    /// `illuminance_lx` or `direct_lx` of points, or the key of a summary figure, or `mean_` with
+    /// the key of a point's measure over a year.
     pub(crate) figure: String,
     /// Index of the point; without it, a point figure is promised at every point.
     pub(crate) point: Option<usize>,
@@ -83,10 +86,12 @@ impl Expectation {
             ("illuminance_lx" | "direct_lx", Some(index)) => Some(vec![at(points.get(index)?)?]),
             ("illuminance_lx" | "direct_lx", None) if points.is_empty() => None,
             ("illuminance_lx" | "direct_lx", None) => points.iter().map(at).collect(),
-            (figure, None) => Some(vec![Reported {
-                value: sensor["summary"][figure]["value"].as_f64()?,
-                half_width: sensor["summary"][figure]["half_width"].as_f64()?,
-            }]),
+            (figure, None) => {
+                let summary = &sensor["summary"][figure];
+                let mean = figure.strip_prefix("mean_");
+                let mean = || mean_over(points, mean?);
+                Some(vec![reported_in(summary).or_else(mean)?])
+            }
             (_, Some(_)) => None,
         }
     }
@@ -103,6 +108,24 @@ impl Expectation {
         let point = self.point.map_or(String::new(), |index| format!(" of point {index}"));
         format!("sensor {:?}, {}{point}", self.sensor, self.figure)
     }
+}
+
+/// A summary figure with its half-width, or a share of points with its bounds.
+fn reported_in(summary: &Value) -> Option<Reported> {
+    let number = |key: &str| summary[key].as_f64();
+    let value = number("value")?;
+    let farther = || Some((number("high")? - value).max(value - number("low")?));
+    Some(Reported { value, half_width: number("half_width").or_else(farther)? })
+}
+
+/// The mean of a measure over points, with the mean of their half-widths.
+fn mean_over(points: &[Value], measure: &str) -> Option<Reported> {
+    let mean = |key: &str| {
+        let values: Option<Vec<f64>> = points.iter().map(|point| point[key].as_f64()).collect();
+        Some(values?.iter().sum::<f64>() / points.len() as f64)
+    };
+    let half_width = mean(&format!("{measure}_half_width"))?;
+    Some(Reported { value: mean(measure)?, half_width })
 }
 
 #[cfg(test)]
@@ -123,7 +146,8 @@ mod tests {
 
     fn expect(figure: &str, point: Option<usize>, value: f64) -> Expectation {
         let (sensor, why) = ("desk".to_owned(), "made up".to_owned());
-        Expectation { sensor, figure: figure.into(), point, value, tolerance_rel: 0.002, why }
+        let (figure, project) = (figure.into(), None);
+        Expectation { project, sensor, figure, point, value, tolerance_rel: 0.002, why }
     }
 
     #[test]
