@@ -26,8 +26,7 @@ def main() -> int:
     """Does what the arguments say."""
     options = _options()
     if not options.page:
-        MEASURED.parent.mkdir(exist_ok=True)
-        results.save(_measure(options), MEASURED)
+        _measure(options)
     found = results.load(MEASURED)
     if found.year:
         picture.draw(found.year, MEASURED.parent / "year.svg")
@@ -36,7 +35,8 @@ def main() -> int:
     return 0
 
 
-def _measure(options: argparse.Namespace) -> Results:
+def _measure(options: argparse.Namespace) -> None:
+    """Saves moments before the year begins: both take long."""
     programs = [Quasilux("quasilux", "auto", options.binary), Radiance()]
     for program in programs:
         if reason := program.missing():
@@ -52,12 +52,12 @@ def _measure(options: argparse.Namespace) -> Results:
         else:
             effort = Effort(options.rel_tol, options.seconds)
             moments = contests.moments(options.binary, effort, Path(folder), _say)
-        if options.weather is None:
-            year = before and before.year
-        else:
+        found = Results(machine, moments, before and before.year)
+        results.save(found, MEASURED)
+        if options.weather:
             contest = contests.YearContest(options.binary, options.weather.resolve(), _say)
             year = contest.run(options.rounds, options.years, Path(folder))
-    return Results(machine, moments, year)
+            results.save(Results(machine, moments, year), MEASURED)
 
 
 def _options() -> argparse.Namespace:

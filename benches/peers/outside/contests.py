@@ -21,7 +21,7 @@ SUNNY = Outside("clear sky with sun", 12, 12000.0, Sun(40.0, 200.0, 60000.0))
 
 TOLERANCES = (0.08, 0.04, 0.02)
 LONG_TOLERANCE = 0.001
-LONG_YEARS = 3
+LONG_YEARS = 2
 """Of quasilux: up to the most paths that a sensor gets, with other seeds."""
 
 SETTINGS = [Setting(ad, weight) for weight in (1.0, 0.1) for ad in (1024, 4096, 16384)]

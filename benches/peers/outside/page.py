@@ -9,29 +9,35 @@ HEAD = """# Daylight against Radiance
 
     python3 benches/peers/daylight.py --weather site.epw
 
-The same rooms with windows, under the same skies, through quasilux and Radiance: moments by `rtrace`,
-a year by the two-phase method. `benches/peers/README.md` says what to install. This page is written
-by the command; any EPW file does.
+The same rooms with windows, under the same skies, through quasilux and Radiance: moments by
+`rtrace`, a year by the two-phase method. `benches/peers/README.md` says what to install. This
+page is written by the command; any EPW file does.
 """
 
 MOMENTS = """## Moments
-A room of 4 m x 6 m x 3 m with a window of 3 m x 1.6 m to the south and 12 sensors. Under the overcast
-sky of CIE type 1 with 10 000 lx, and the clear one of type 12 with 12 000 lx and a sun of 60 000 lx
-across its rays, 40 degrees high, as a disk of 0.533 degrees. Radiance has the sky by a formula of
-`benches/peers`, not by `gensky`, whose constants are rounded; the ground is a uniform glow in both.
+A room of 4 m x 6 m x 3 m with a window of 3 m x 1.6 m to the south and 12 sensors. Under the
+overcast sky of CIE type 1 with 10 000 lx, and the clear one of type 12 with 12 000 lx and a sun
+of 60 000 lx across its rays, 40 degrees high, as a disk of 0.533 degrees. Radiance has the sky by
+a formula of `benches/peers`, not by `gensky`, whose constants are rounded; the ground is a
+uniform glow in both.
 
 - **Glass.** Radiance's `glass` of transmissivity 0.96; quasilux has a table by angle that
-  `benches/peers/outside/glass.py` computes by Fresnel's equations for a pane of index 1.52.
+`benches/peers/outside/glass.py` computes by Fresnel's equations for a pane of index 1.52.
+
 - **Blinds.** A Klems matrix, made up in `outside/blinds.py`, given to both as the same XML: light
-  between the slats goes straight on in its patch, the rest is scattered. The diffuser has no such
-  peak.
-- **rtrace** has no ambient cache and cuts nothing off (`-aa 0 -as 0 -ab 100 -lr -100 -lw 1/ad -dt 0
-  -dc 1 -dj 1 -st 0 -ss 1 -ad 4096`); sensors are asked again and again, which gives its own error.
+between the slats goes straight on in its patch, the rest is scattered. The diffuser has no such
+peak.
+
+- **rtrace** has no ambient cache and cuts nothing off; sensors are asked again and again, which
+gives its own error. Its options:
+
+    rtrace -h -I -aa 0 -as 0 -ab 100 -ad 4096 -lr -100 -lw 1/4096 -dt 0 -dc 1 -dj 1 -st 0 -ss 1
+
 - **quasilux** is `quasilux run --rel-tol 0.3%`, or what a minute gives.
 
-Radiance less quasilux, in % of quasilux. The errors of each are standard errors of a sensor in the
-mean; z is a difference of a sensor over its joint standard error, about 1 (r.m.s.) where programs
-agree.
+Radiance less quasilux, in % of quasilux. The errors of each are standard errors of a sensor in
+the mean; z is a difference of a sensor over its joint standard error, about 1 (r.m.s.) where
+programs agree.
 """
 
 BLACK = """### Who is right about blinds
@@ -39,35 +45,37 @@ Between black walls the answer is a sum over patches and the window's points, wh
 `outside/quadrature.py` makes without either program. Both from there, in %:
 """
 
-REASONS = """Through glass the programs agree. quasilux agrees with the sums: it takes patches as they
-are, constant with sharp edges. Radiance shifts both directions of each look-up by chance, by about
-the size of a patch, so that edges are blurred (`bsdf_jitter` in its `m_bsdf.c`). A smooth matrix hardly
-minds; one with peaks loses a little light in the mean, and sensors at the rim of a sun's patch get a
-good deal more or less. Neither is what blinds do: their matrix has no edges that are known so well.
+REASONS = """Through glass the programs agree. quasilux agrees with the sums: it takes patches
+as they are, constant with sharp edges. Radiance shifts the direction of view of each look-up by
+chance, by about the size of a patch (`bsdf_jitter` in its `m_bsdf.c`), so that edges are blurred:
+sensors at the rim of what the sun's patch lights get more or less, and a few thousandths of the
+light of the sky are lost. Neither is what blinds do: no matrix knows its edges so well.
 """
 
 YEAR = """## A year
-An office of 6 m x 8 m x 2.8 m with a window of 5.4 m x 1.6 m to the south, glass of transmissivity 0.8,
-and 96 sensors. The weather is that of {place}, the same file for both. quasilux is `quasilux annual`,
-everything counted. The two-phase method is `rcontrib` with Reinhart's 2305 patches of the sky (MF 4),
-`gendaymtx -m 4` and the product of the two, all counted; the product is made in numpy, faster than by
-`dctimestep`. `rcontrib` has `-ab 12 -lr -100`.
+An office of 6 m x 8 m x 2.8 m with a window of 5.4 m x 1.6 m to the south, glass of
+transmissivity 0.8, and 96 sensors. The weather is that of {place}, the same file for both.
+quasilux is `quasilux annual`, everything counted. The two-phase method is `rcontrib` with
+Reinhart's 2305 patches of the sky (MF 4), `gendaymtx -m 4` and the product of the two, all
+counted; the product is made in numpy, faster than by `dctimestep`. `rcontrib` has `-ab 12 -lr
+-100`.
 
-Errors are root mean squares over points and hours of the difference over what is right. {lit} hours
-count: those in which the sky gives 1000 lx and the sun is 3 degrees up. What is right is the mean of
-long years of the same program ("own": noise), or of the other one. The noise that is left in these
-({quasilux_noise} and {rcontrib_noise}) is taken off. The last columns: sums over the year less
-quasilux's, and the share of sensors that have 300 lx in half of the hours from 8 to 18 (sDA).
+Errors are root mean squares over points and hours of the difference over what is right. {lit}
+hours count: those in which the sky gives 1000 lx and the sun is 3 degrees up. What is right is
+the mean of long years of the same program ("own": noise), or of the other one. The noise that is
+left in these ({quasilux_noise} and {rcontrib_noise}) is taken off. The last columns: sums over
+the year less quasilux's, and the share of sensors that have 300 lx in half of the hours from 8 to
+18 (sDA).
 
-The time is that of the processor, on all cores, in the median of {rounds} rounds in which the programs
-took turns; in brackets, by the clock.
+The time is that of the processor, on all cores, in the median of {rounds} rounds in which the
+programs took turns; in brackets, by the clock.
 """
 
-CHECK = """Long years of both are {between} apart in all hours, and {sunless} in the {sunless_hours}
-hours without sun, of which {noise} is noise of rcontrib: there each confirms the other. Where the sun
-shines the difference is the method's: `gendaymtx` puts the sun onto the four nearest patches, 3
-degrees wide each, and its places of the sun are less exact. No number of divisions mends that. In the
-sums over the year it is {annual}.
+CHECK = """Long years of both are {between} apart in all hours, and {sunless} in the
+{sunless_hours} hours without sun, of which {noise} is noise of rcontrib: there each confirms the
+other. Where the sun shines the difference is the method's: `gendaymtx` puts the sun onto the four
+nearest patches, some 3 degrees wide each, and its formula for the place of the sun is a coarser
+one. No number of divisions mends that. In the sums over the year it is {annual}.
 """
 
 
@@ -75,8 +83,8 @@ def write(results: Results) -> str:
     """The whole page."""
     machine = results.machine
     measured = (
-        f"Measured {machine.date} on {machine.cores} cores of {machine.processor}; other work made"
-        f" a load of {machine.load_before:.1f} before it began. quasilux {machine.quasilux},"
+        f"Measured {machine.date} on {machine.cores} cores of {machine.processor}; other work"
+        f" made a load of {machine.load_before:.1f} before it began. quasilux {machine.quasilux},"
         f" Radiance {machine.radiance}.\n"
     )
     lit = [row for row in results.moments if row.quasilux_from_sums is None]
@@ -86,8 +94,9 @@ def write(results: Results) -> str:
 
 
 def _moments(rows: list[Compared]) -> str:
-    head = ["window and sky", "mean, lx", "difference of the mean", "r.m.s. z", "sensor furthest off"]
-    head += ["error of quasilux", "of Radiance", "processor, s: quasilux", "Radiance"]
+    head = ["window and sky", "mean, lx", "difference of the mean", "r.m.s. z"]
+    head += ["sensor furthest off", "error of quasilux"]
+    head += ["of Radiance", "quasilux, s", "Radiance, s"]
     lines = []
     for row in rows:
         apart = row.radiance_from_quasilux

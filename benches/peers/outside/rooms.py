@@ -18,7 +18,7 @@ UP = (0.0, 0.0, 1.0)
 
 @dataclass(frozen=True)
 class Size:
-    """A box of x by y by z metres, and the window's lower left and upper right corner in x and z."""
+    """A box of x by y by z metres, and the window's lower and upper corner in x and z."""
 
     box: tuple[float, float, float]
     low: tuple[float, float]

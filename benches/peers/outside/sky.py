@@ -78,7 +78,8 @@ class Outside:
         shines = "true" if self.sun.normal_lx > 0 else "false"
         lines = ["[sky]", 'model = "cie"', f"type = {self.kind}"]
         lines += [f"horizontal_illuminance_lx = {self.sky_lx}", "[sun]", f"direct = {shines}"]
-        lines += [f"altitude_deg = {self.sun.altitude_deg}", f"azimuth_deg = {self.sun.azimuth_deg}"]
+        lines += [f"altitude_deg = {self.sun.altitude_deg}"]
+        lines += [f"azimuth_deg = {self.sun.azimuth_deg}"]
         if self.sun.normal_lx > 0:
             lines.append(f"normal_illuminance_lx = {self.sun.normal_lx}")
         return [*lines, "[ground]", f"reflectance = {self.ground_reflectance}"]
