@@ -14,6 +14,7 @@ from importlib import import_module
 from pathlib import Path
 
 from contest import page, references, results
+from contest.machine import processor
 from contest.programs.luxcore import LuxCore
 from contest.programs.mitsuba import Mitsuba
 from contest.programs.program import Program
@@ -125,18 +126,12 @@ def _room(name: str) -> Room:
 
 def _machine(programs: list[Program], effort: Effort, load_before: float) -> Machine:
     cores = os.cpu_count() or 1
-    processor = "an unknown processor"
-    information = Path("/proc/cpuinfo")
-    if information.exists():
-        for line in information.read_text().splitlines():
-            if line.startswith("model name"):
-                processor = line.split(":", 1)[1].strip()
     versions = {
         program.name: program.version() for program in programs if program.name != "quasilux path"
     }
     today = datetime.date.today().isoformat()
     return Machine(
-        processor, cores, load_before, today, effort.rounds, effort.cap_seconds, versions
+        processor(), cores, load_before, today, effort.rounds, effort.cap_seconds, versions
     )
 
 

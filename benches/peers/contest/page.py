@@ -1,10 +1,10 @@
 """docs/comparison.md: tables of a sweep in words."""
 
 import math
-import textwrap
 
 from contest.curves import Found
 from contest.errors import Deviation
+from contest.markdown import document, table
 from contest.results import Line, Results, RoomResult
 
 FIRST = "quasilux"
@@ -93,7 +93,7 @@ def write(results: Results) -> str:
         METHOD.format(
             rounds=machine.rounds,
             cap=machine.cap_seconds,
-            programs=_table(["program", "how it runs", "what its time holds"], PROGRAMS),
+            programs=table(["program", "how it runs", "what its time holds"], PROGRAMS),
         ),
         _warm_ups(results),
         AGREEMENT,
@@ -103,18 +103,7 @@ def write(results: Results) -> str:
         "## Pictures\nDashed: the goal. Dotted: the standard error of the reference.\n",
         *[f"![{room.title}](comparison/{room.name}.svg)\n" for room in results.rooms],
     ]
-    return "\n\n".join(map(_wrapped, "\n".join(parts).split("\n\n")))
-
-
-def _wrapped(block: str) -> str:
-    """Prose at 100 columns; tables, headings and commands as they are."""
-    if block.startswith("#") and "\n" in block:
-        heading, rest = block.split("\n", 1)
-        return f"{heading}\n{_wrapped(rest)}"
-    if block.lstrip("\n").startswith(("|", "#", "!", "    ")):
-        return block
-    end = "\n" if block.endswith("\n") else ""
-    return textwrap.fill(block, 100, break_long_words=False, break_on_hyphens=False) + end
+    return document(parts)
 
 
 def _times(results: Results) -> list[str]:
@@ -126,7 +115,7 @@ def _times(results: Results) -> list[str]:
         rows = [_row(room, goal) for room in rooms]
         head = ["room", "triangles", "lights", "sensors", *names]
         parts.append(f"## Time to an error of {100 * goal:.1g} %\n")
-        parts.append(_table(head, rows))
+        parts.append(table(head, rows))
     return [*parts, _faster(results)]
 
 
@@ -194,7 +183,7 @@ def _agreement(results: Results) -> str:
                 said = _percent(line.deviation)
                 cells.append(said if line.agrees() else f"**{said}**")
         rows.append([room.title, *cells])
-    return _table(["room", *names], rows)
+    return table(["room", *names], rows)
 
 
 def _references(results: Results) -> str:
@@ -207,7 +196,7 @@ def _references(results: Results) -> str:
         ]
         for room in results.rooms
     ]
-    return _table(["room", "standard error (L2)", "between the two", "z"], rows)
+    return table(["room", "standard error (L2)", "between the two", "z"], rows)
 
 
 def _percent(share: Deviation) -> str:
@@ -219,9 +208,3 @@ def _figures(value: float) -> str:
     if value >= 10:
         return f"{value:.0f}"
     return f"{value:.2g}"
-
-
-def _table(head: list[str], rows: list[list[str]]) -> str:
-    lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
-    lines += ["| " + " | ".join(row) + " |" for row in rows]
-    return "\n".join(lines) + "\n"

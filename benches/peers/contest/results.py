@@ -95,7 +95,7 @@ def room_result(
 
 def save(results: Results, path: Path) -> None:
     """Writes all numbers, to four digits."""
-    text = json.dumps(_rounded(asdict(results)), indent=1)
+    text = json.dumps(rounded(asdict(results)), indent=1)
     path.write_text(text + "\n")
 
 
@@ -129,12 +129,13 @@ def _read_room(document: dict) -> RoomResult:
     return RoomResult(**document, reference_deviation=sides, lines=lines)
 
 
-def _rounded(value: object) -> object:
+def rounded(value: object) -> object:
+    """The same with all numbers to four digits."""
     match value:
         case float():
             return float(f"{value:.4g}")
         case dict():
-            return {key: _rounded(item) for key, item in value.items()}
+            return {key: rounded(item) for key, item in value.items()}
         case list():
-            return [_rounded(item) for item in value]
+            return [rounded(item) for item in value]
     return value

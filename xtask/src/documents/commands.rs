@@ -14,7 +14,7 @@ const LEFT_OUT: [LeftOut; 11] = [
     LeftOut::anywhere("cargo install ", "installs what has been published"),
     LeftOut::anywhere("cargo run --release -p ", "benchmarks: minutes, and times of one machine"),
     LeftOut::anywhere("cargo run --release -- experiment coverage", "40 minutes"),
-    LeftOut::anywhere("python3 benches/peers/compare.py", "needs other programs"),
+    LeftOut::anywhere("python3 benches/peers/", "needs other programs"),
     LeftOut::anywhere("sh local.sh ", "`cargo xtask test examples` does the same"),
     LeftOut::anywhere("shards=$(sbatch ", "needs a cluster"),
     LeftOut::anywhere("sbatch ", "needs a cluster"),

@@ -99,7 +99,7 @@ def write_project(room: Room, folder: Path) -> Path:
     panels = [f"panel{i}" for i in range(len(room.panels))]
     obj.write(room, folder / "room.obj", panels)
     lines = ["[scene]", 'geometry = ["room.obj"]', "", "[materials]"]
-    lines += [f"{name} = {_material(kind)}" for name, kind in room.materials.items()]
+    lines += [f"{name} = {material(kind)}" for name, kind in room.materials.items()]
     lines += [f"{name} = {{ reflectance = 0 }}" for name in panels]
     for point in room.points:
         lines += ["", "[[lights]]", 'kind = "point"', f"position = {list(point.position)}"]
@@ -119,7 +119,8 @@ def write_project(room: Room, folder: Path) -> Path:
     return path
 
 
-def _material(kind: Material) -> str:
+def material(kind: Material) -> str:
+    """A material of a project file."""
     match kind:
         case Diffuse(reflectance):
             return f"{{ reflectance = {reflectance} }}"

@@ -43,7 +43,7 @@ class Radiance:
 
     def version(self) -> str:
         """Of the binaries and the package."""
-        said = _tool("rtrace", ["-version"], Path("."), b"").decode()
+        said = tool("rtrace", ["-version"], Path("."), b"").decode()
         return f"{said.split()[1]} (pyradiance {importlib.metadata.version('pyradiance')})"
 
     def cannot(self, room: Room) -> str | None:
@@ -54,7 +54,7 @@ class Radiance:
         """Writes the room and makes an octree."""
         sources = _write(room, folder)
         octree = folder / "room.oct"
-        octree.write_bytes(_tool("oconv", ["-r", "16384", *sources], folder, b""))
+        octree.write_bytes(tool("oconv", ["-r", "16384", *sources], folder, b""))
         rows = np.hstack([room.sensors.positions, room.sensors.normals])
         points = "\n".join(" ".join(f"{x:.7g}" for x in row) for row in rows) + "\n"
         return LoadedRadiance(folder, points.encode(), bool(room.panels))
@@ -78,7 +78,7 @@ class LoadedRadiance:
         if self.has_panels:
             options += ["-dj", "1", "-ds", "0.1"]
         begin = time.perf_counter()
-        said = _tool("rtrace", [*options, "room.oct"], self.folder, repeats * self.points)
+        said = tool("rtrace", [*options, "room.oct"], self.folder, repeats * self.points)
         seconds = time.perf_counter() - begin
         rows = np.array(said.split(), dtype=np.float64).reshape(repeats, -1, 3)
         return Run(LUMENS_A_WATT * rows[:, :, 1].mean(axis=0), seconds)
@@ -87,7 +87,8 @@ class LoadedRadiance:
         """Files stay for who wants to look."""
 
 
-def _tool(name: str, options: list[str], folder: Path, given: bytes) -> bytes:
+def tool(name: str, options: list[str], folder: Path, given: bytes) -> bytes:
+    """What a program of the package prints, run in a folder."""
     package = Path(importlib.util.find_spec("pyradiance").origin).parent
     surroundings = {
         **os.environ,
@@ -103,16 +104,16 @@ def _tool(name: str, options: list[str], folder: Path, given: bytes) -> bytes:
 
 
 def _write(room: Room, folder: Path) -> list[str]:
-    lines = [_material(name, kind) for name, kind in room.materials.items()]
+    lines = [material(name, kind) for name, kind in room.materials.items()]
     for index, rectangle in enumerate(room.rectangles):
-        lines.append(_polygon(rectangle.material, f"r{index}", rectangle.corners()))
+        lines.append(polygon(rectangle.material, f"r{index}", rectangle.corners()))
     for index, panel in enumerate(room.panels):
         watts = panel.luminance_cd_m2 / LUMENS_A_WATT
-        lines.append(_light(f"panel{index}_light", watts))
-        lines.append(_polygon(f"panel{index}_light", f"panel{index}", panel.rectangle.corners()))
+        lines.append(light(f"panel{index}_light", watts))
+        lines.append(polygon(f"panel{index}_light", f"panel{index}", panel.rectangle.corners()))
     for index, point in enumerate(room.points):
         watts = point.intensity_cd / (LUMENS_A_WATT * np.pi * RADIUS_M**2)
-        lines.append(_light(f"point{index}_light", watts))
+        lines.append(light(f"point{index}_light", watts))
         place = " ".join(map(str, point.position))
         lines.append(f"point{index}_light sphere point{index} 0 0 4 {place} {RADIUS_M}")
     for index, mesh in enumerate(room.meshes):
@@ -120,7 +121,7 @@ def _write(room: Room, folder: Path) -> list[str]:
             lines.append(_compiled(room, index, folder))
         else:
             for number, corners in enumerate(mesh.vertices[mesh.triangles]):
-                lines.append(_polygon(mesh.material, f"m{index}_{number}", corners))
+                lines.append(polygon(mesh.material, f"m{index}_{number}", corners))
     (folder / "room.rad").write_text("\n".join(lines) + "\n")
     if not room.luminaires:
         return ["room.rad"]
@@ -128,7 +129,8 @@ def _write(room: Room, folder: Path) -> list[str]:
     return ["room.rad", "lamps.rad"]
 
 
-def _material(name: str, kind: Material) -> str:
+def material(name: str, kind: Material) -> str:
+    """A material by name."""
     match kind:
         case Diffuse(reflectance):
             return f"void plastic {name} 0 0 5 {' '.join(3 * [str(reflectance)])} 0 0"
@@ -138,11 +140,13 @@ def _material(name: str, kind: Material) -> str:
             return f"void glass {name} 0 0 4 1 1 1 {eta}"
 
 
-def _light(name: str, watts: float) -> str:
+def light(name: str, watts: float) -> str:
+    """A material of light sources, of the same radiance in all channels, in W/(sr m2)."""
     return f"void light {name} 0 0 3 {watts:.9g} {watts:.9g} {watts:.9g}"
 
 
-def _polygon(material: str, name: str, corners: np.ndarray) -> str:
+def polygon(material: str, name: str, corners: np.ndarray) -> str:
+    """A polygon; its normal is on the side from which the corners go counter-clockwise."""
     numbers = " ".join(f"{x:.9g}" for x in corners.ravel())
     return f"{material} polygon {name} 0 0 {corners.size} {numbers}"
 
@@ -151,7 +155,7 @@ def _compiled(room: Room, index: int, folder: Path) -> str:
     mesh = room.meshes[index]
     alone = Room("mesh", "", room.sensors, room.materials, meshes=[mesh])
     obj.write(alone, folder / f"mesh{index}.obj", [])
-    _tool("obj2mesh", [f"mesh{index}.obj", f"mesh{index}.rtm"], folder, b"")
+    tool("obj2mesh", [f"mesh{index}.obj", f"mesh{index}.rtm"], folder, b"")
     return f"{mesh.material} mesh mesh{index} 1 mesh{index}.rtm 0 0"
 
 
@@ -162,9 +166,9 @@ def _lamps(luminaires: list[Luminaire], folder: Path) -> bytes:
         if luminaire.file not in names:
             names[luminaire.file] = f"lamp{len(names)}"
             options = ["-t", "default", "-i", str(RADIUS_M), "-o", names[luminaire.file]]
-            _tool("ies2rad", [*options, str(luminaire.file)], folder, b"")
+            tool("ies2rad", [*options, str(luminaire.file)], folder, b"")
         place = _turn(luminaire) + ["-t", *map(str, luminaire.position)]
-        made += _tool("xform", [*place, f"{names[luminaire.file]}.rad"], folder, b"")
+        made += tool("xform", [*place, f"{names[luminaire.file]}.rad"], folder, b"")
     return made
 
 

@@ -1,0 +1,1 @@
+"""Rooms with windows, under the same skies in quasilux and Radiance."""
