@@ -8,13 +8,14 @@ use xtask::workspace::Failure;
 const CALLS: [&str; 2] = ["cargo run --release -- ", "quasilux "];
 
 /// Commands that are not run here, by how they begin, and the documents where they are not.
-const LEFT_OUT: [LeftOut; 11] = [
+const LEFT_OUT: [LeftOut; 13] = [
     LeftOut::anywhere("cargo xtask ", "what runs the commands of the documents"),
     LeftOut::anywhere("cargo test ", "`cargo xtask test tests` runs all tests"),
     LeftOut::anywhere("cargo install ", "installs what has been published"),
     LeftOut::anywhere("cargo run --release -p ", "benchmarks: minutes, and times of one machine"),
     LeftOut::anywhere("cargo run --release -- experiment coverage", "40 minutes"),
     LeftOut::anywhere("python3 benches/peers/", "needs other programs"),
+    LeftOut::anywhere("rtrace ", "a program of Radiance"),
     LeftOut::anywhere("sh local.sh ", "`cargo xtask test examples` does the same"),
     LeftOut::anywhere("shards=$(sbatch ", "needs a cluster"),
     LeftOut::anywhere("sbatch ", "needs a cluster"),
@@ -24,6 +25,7 @@ const LEFT_OUT: [LeftOut; 11] = [
         documents: "examples/",
         _why: "`cargo xtask test examples` runs them and compares more",
     },
+    LeftOut { begins: "cargo run --release -- annual ", documents: "examples/", _why: "the same" },
 ];
 
 /// Commands that are left out.
