@@ -123,6 +123,7 @@ pub(crate) fn annual_settings(
     values_in_section(&mut settings, section);
     settings.estimator = EstimatorKind::Path;
     settings.rel_tol = arguments.rel_tol;
+    settings.abs_tol_lx = arguments.abs_tol;
     settings.confidence = arguments.confidence.unwrap_or(settings.confidence);
     settings.seed = arguments.seed.unwrap_or(settings.seed);
     settings.max_samples = arguments.samples;

@@ -114,6 +114,7 @@ fn run_entry(run: &AnnualRun) -> Value {
         "version": run.version,
         "scene_sha256": run.scene_sha256,
         "rel_tol": run.settings.rel_tol,
+        "abs_tol_lx": run.settings.abs_tol_lx,
         "confidence": run.settings.confidence,
         "replicates": run.settings.effective_replicates(),
         "seed": run.settings.seed,

@@ -4,7 +4,7 @@
 //! Technology 15, 1983).
 
 use super::mesh::{Mesh, Share, Spacing};
-use super::paths::{TargetReplicate, dark_ways, trace};
+use super::paths::{TargetReplicate, sun_ways, trace};
 use crate::context::{Context, Stream};
 use crate::lights::Suns;
 use crate::path::daylight::{FromOutside, Whence};
@@ -14,6 +14,7 @@ use crate::stats::tally::checked_quanta;
 use crate::stats::targets::Target;
 use quasilux_sampling::Sampler;
 use std::ops::Range;
+use std::sync::Arc;
 
 /// Between nodes of the sky: near the horizon luminances change within a degree.
 const SKY: Spacing = Spacing { usual: 0.105, at_horizon: 0.026 };
@@ -92,17 +93,16 @@ impl Meshes {
         Self { sky, suns_mesh, suns, sun_of_node, per_sr, sharpened_sky, sharpened_suns }
     }
 
-    /// Finds out on which ways the sun shines, by paths from these targets that do not count: on
-    /// others few places of the sun are asked. All replicates learn the same.
+    /// Finds out where the sun shines, by paths from these targets that do not count: elsewhere few
+    /// places of the sun are asked. All replicates learn the same.
     pub(super) fn learn<S: Spectrum>(
         all: &mut [Self],
         context: &Context<'_, S>,
         targets: &[Target],
     ) {
         let Some(first) = all.first() else { return };
-        for way in dark_ways(context, &first.suns, all.len() as u32, targets) {
-            all.iter_mut().for_each(|meshes| meshes.suns.note_dark(way));
-        }
+        let ways = Arc::new(sun_ways(context, &first.suns, all.len() as u32, targets));
+        all.iter_mut().for_each(|meshes| meshes.suns.use_ways(Arc::clone(&ways)));
     }
 
     /// The places of the sun that stand for one in a direction.

@@ -1,7 +1,7 @@
 //! Paths from a sensor point that keep what they find outside by its direction.
 
 use crate::context::{Context, Stream};
-use crate::lights::{SunWay, Suns};
+use crate::lights::{SunWays, Suns};
 use crate::path::daylight::{FromOutside, Whence};
 use crate::path::end::Rest;
 use crate::path::start::{Measurement, Start};
@@ -13,7 +13,7 @@ use quasilux_sampling::Sampler;
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// So many points, each with so many paths, say on which ways the sun shines.
+/// So many points, each with so many paths, say where the sun shines.
 const PILOT_POINTS: usize = 64;
 const PILOT_PATHS: u64 = 64;
 
@@ -70,30 +70,25 @@ pub(super) fn trace<S: Spectrum>(
     wave.take_rays()
 }
 
-/// The ways on which paths of a replicate that counts nowhere, from targets all over the scene,
-/// find no sun.
-pub(super) fn dark_ways<S: Spectrum>(
+/// Where the sun shines, found out by paths of a replicate that counts nowhere, from targets all over
+/// the scene.
+pub(super) fn sun_ways<S: Spectrum>(
     context: &Context<'_, S>,
     suns: &Suns,
     replicate: u32,
     targets: &[Target],
-) -> Vec<SunWay> {
+) -> SunWays {
     let step = targets.len().div_ceil(PILOT_POINTS).max(1);
     let pilots: Vec<usize> = (step / 2..targets.len()).step_by(step).collect();
     let look = |number: usize| {
         let of = TargetReplicate { number, target: &targets[number], replicate };
-        let mut shining = Vec::new();
+        let mut ways = SunWays::default();
         trace(context, suns, of, 0..PILOT_PATHS, &mut PathWave::default(), |found| {
-            if let Whence::Sun(_, way) = found.whence
-                && found.light > 0.0
-                && !shining.contains(&way)
-            {
-                shining.push(way);
+            if let Whence::Sun(_, place) = found.whence {
+                ways.note(place, found.light > 0.0);
             }
         });
-        shining
+        ways
     };
-    let shining: Vec<SunWay> = pilots.into_par_iter().flat_map_iter(look).collect();
-    let all = [SunWay::Beside, SunWay::Through, SunWay::OnSheet];
-    all.into_iter().filter(|way| !shining.contains(way)).collect()
+    pilots.into_par_iter().map(look).reduce(SunWays::default, SunWays::merge)
 }

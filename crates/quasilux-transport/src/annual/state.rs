@@ -217,8 +217,9 @@ impl<'y, S: Spectrum> State<'y, S> {
                     place[hour].into_iter().for_each(|own: usize| values[own] += lx);
                 }
             }
-            let known = self.t.map(|t| relative_half_width(all, t));
             let tolerance = self.settings.rel_tol;
+            let floor_lx = if tolerance > 0.0 { self.settings.abs_tol_lx / tolerance } else { 0.0 };
+            let known = self.t.map(|t| relative_half_width(all, t, floor_lx));
             point.relative_half_width = known;
             point.is_done = tolerance > 0.0 && known.is_some_and(|known| known <= tolerance);
             point.goal = self.next(point.goal, known.unwrap_or(f64::INFINITY));
@@ -275,15 +276,16 @@ impl<'y, S: Spectrum> State<'y, S> {
     }
 }
 
-/// The root mean square over hours of half-width over value, of hours that have one.
-fn relative_half_width(by_replicate: &[Vec<f32>], t: f64) -> f64 {
+/// The root mean square over hours of half-width over value, or over a floor where that is more.
+fn relative_half_width(by_replicate: &[Vec<f32>], t: f64, floor_lx: f64) -> f64 {
     let n = by_replicate.len() as f64;
     let hours = by_replicate.first().map_or(0, Vec::len);
     let square = |hour: usize| {
         let values = by_replicate.iter().map(|values| f64::from(values[hour]));
         let mean = values.clone().sum::<f64>() / n;
         let squares: f64 = values.map(|x| (x - mean) * (x - mean)).sum();
-        (mean > 0.0).then(|| t * t * squares / ((n - 1.0) * n * mean * mean))
+        let over = mean.max(floor_lx);
+        (over > 0.0).then(|| t * t * squares / ((n - 1.0) * n * over * over))
     };
     let (sum, count) = (0..hours)
         .filter_map(square)

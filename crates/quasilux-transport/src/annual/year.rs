@@ -38,7 +38,8 @@ pub struct ClosedHours<'h> {
 /// `scene.environment` says where north is, what the ground reflects and where the openings are;
 /// its sky and its sun do not count. Each point gets paths until the root mean square over the
 /// hours of half-width over value is within `settings.rel_tol`, or up to `settings.max_samples`:
-/// both with open and with closed blinds.
+/// both with open and with closed blinds. Where `settings.abs_tol_lx` is more than that tolerance
+/// of a value, it is what the hour is held to.
 ///
 /// `digest` makes of each point what is to be kept, in the threads of the rayon pool that the call
 /// is made in; `keep` gets that in the order of the points. `progress` says whether to go on after

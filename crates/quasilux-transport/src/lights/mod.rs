@@ -16,6 +16,7 @@ mod outside;
 mod pointlike;
 mod seen_triangle;
 mod selection;
+mod sun_ways;
 mod suns;
 
 pub(crate) use area_luminaires::AreaLuminaires;
@@ -25,7 +26,8 @@ pub(crate) use facet_group::EmitterPlace;
 pub(crate) use outside::OutsideLight;
 pub(crate) use pointlike::{Incidence, LightCentre, PointLikes};
 pub(crate) use selection::{Asking, ChoiceWork, tables_bytes};
-pub(crate) use suns::{SunChoice, SunSample, SunWay, Suns};
+pub(crate) use sun_ways::{SunPlace, SunWays};
+pub(crate) use suns::{SunChoice, SunSample, Suns};
 
 use crate::lights::images::LightPathClass;
 use crate::purpose::{Purpose, PurposeRecorder};

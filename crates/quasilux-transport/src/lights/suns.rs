@@ -1,28 +1,18 @@
 //! Places of the sun that light is asked from together, for hours that are told later.
 
 use crate::lights::outside::OutsideLight;
+use crate::lights::sun_ways::{SunPlace, SunWay, SunWays};
 use crate::spectrum::Spectrum;
 use crate::world::vertex::Vertex;
 use crate::world::visibility::LightSample;
 use glam::{DVec3, Vec3};
+use std::sync::Arc;
 
-/// So many suns are asked at a vertex at most: each costs about one ray, the vertex some ten, and
-/// every sun that is asked is known better.
-const MAX_ASKED: f64 = 32.0;
+/// So many suns are asked at a vertex where nothing is known.
+const ASKED: f64 = 32.0;
 /// On ways on which no sun was found to shine, one is asked at so many of the vertices, for nobody
 /// can know.
 const RARELY: f64 = 0.125;
-
-/// How a sun may shine on a vertex.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum SunWay {
-    /// On one side, past all openings: these need not be complete.
-    Beside,
-    /// On one side, through an opening.
-    Through,
-    /// On a sheet that lets light through to its other side.
-    OnSheet,
-}
 
 /// Directions in which the sun may stand.
 #[derive(Clone, Debug, Default)]
@@ -31,8 +21,8 @@ pub(crate) struct Suns {
     directions: Vec<DVec3>,
     /// The same by coordinate, for who looks at all of them.
     coordinates: [Vec<f32>; 3],
-    /// Ways on which no sun was found to shine.
-    dark: Vec<SunWay>,
+    /// How often they were found to shine; `None` while that is learnt.
+    ways: Option<Arc<SunWays>>,
 }
 
 /// Numbers of suns above the horizon of a vertex; working space.
@@ -53,7 +43,7 @@ const ROUNDING: f32 = 1e-6;
 /// The light of one of the suns, of 1 lx on a plane across its rays.
 pub(crate) struct SunSample<S> {
     pub(crate) sun: u32,
-    pub(crate) way: SunWay,
+    pub(crate) place: SunPlace,
     pub(crate) light_sample: LightSample<S>,
 }
 
@@ -78,9 +68,21 @@ impl Suns {
         }
     }
 
-    /// Notes that no sun was found to shine on a way: few are asked there.
-    pub(crate) fn note_dark(&mut self, way: SunWay) {
-        self.dark.push(way);
+    /// Asks more often from now on where they were found to shine.
+    pub(crate) fn use_ways(&mut self, ways: Arc<SunWays>) {
+        self.ways = Some(ways);
+    }
+
+    /// Whether it is still to be learnt where they shine.
+    pub(crate) fn is_learning(&self) -> bool {
+        self.ways.is_none()
+    }
+
+    /// How many of so many suns are asked at a place. Of suns that shine with a chance, the square
+    /// root of that as a share makes the most of the rays.
+    fn asked(&self, place: SunPlace, suns: usize) -> f64 {
+        let learnt = |ways: &Arc<SunWays>| (suns as f64 * ways.chance(place).sqrt()).max(RARELY);
+        self.ways.as_ref().map_or(ASKED, learnt)
     }
 
     /// Some of the suns above the horizon of a vertex, each with its chance.
@@ -98,21 +100,22 @@ impl Suns {
             None => &[SunWay::OnSheet],
         };
         for &way in ways {
-            let asked = if self.dark.contains(&way) { RARELY } else { MAX_ASKED };
-            // Most often none, whatever suns there are.
+            let Some(place) = SunPlace::new(way, vertex) else { continue };
+            let chosen = choice.of_way(way);
+            let asked = self.asked(place, chosen.len());
+            // Most often none where it is dark.
             if u >= asked {
                 continue;
             }
-            let chosen = choice.of_way(way);
             let one_in = (chosen.len() as f64 / asked).max(1.0);
-            let places = (0..).map(|k| ((u + f64::from(k)) * one_in) as usize);
-            for &sun in places.map_while(|place| chosen.get(place)) {
+            let numbers = (0..).map(|k| ((u + f64::from(k)) * one_in) as usize);
+            for &sun in numbers.map_while(|number| chosen.get(number)) {
                 let direction = self.directions[sun as usize];
                 let lx = one_in * vertex.cos(direction).max(0.0);
                 let light = vertex.weight(direction) * lx;
                 let sample = LightSample::unless_dark(direction, outside.beyond_m(), light, lx);
                 if let Some(light_sample) = sample {
-                    take(SunSample { sun, way, light_sample });
+                    take(SunSample { sun, place, light_sample });
                 }
             }
         }

@@ -1,7 +1,7 @@
 //! What paths find outside, kept by the direction that it comes from: any sky and any sun can be
 //! put there when they are over.
 
-use crate::lights::{SunWay, Suns};
+use crate::lights::{SunPlace, Suns};
 use glam::DVec3;
 use std::collections::VecDeque;
 
@@ -12,8 +12,8 @@ pub(crate) enum Whence {
     Outside(DVec3),
     /// The same past mirrors, where nobody can ask for the sun.
     Mirrored(DVec3),
-    /// One of the suns, on a way.
-    Sun(u32, SunWay),
+    /// One of the suns, asked for at a place.
+    Sun(u32, SunPlace),
 }
 
 /// What a path found.
@@ -41,9 +41,10 @@ impl<'p> Daylight<'p> {
         self.asked.push_back(whence);
     }
 
-    /// What the next answer is about.
+    /// What the next answer is about: one of no light tells where no sun shines.
     pub(crate) fn answered(&mut self, light: Option<f64>) -> Option<FromOutside> {
         let whence = self.asked.pop_front()?;
+        let light = light.or(self.suns.is_learning().then_some(0.0));
         light.map(|light| FromOutside { whence, light })
     }
 }

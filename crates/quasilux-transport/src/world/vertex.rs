@@ -78,6 +78,12 @@ impl<'w, S: Spectrum> Vertex<'w, S> {
         self.from.facet()
     }
 
+    /// A number for the side of the facet that the path met; `None` for a sensor point.
+    pub(crate) fn facet_side(&self) -> Option<u32> {
+        let front = u32::from(self.surface?.front);
+        self.facet().map(|facet| 2 * facet + front)
+    }
+
     /// The cosine that makes illuminance of what arrives from `direction`; not above 0 where
     /// nothing of it counts.
     pub(crate) fn cos(&self, direction: DVec3) -> f64 {

@@ -1,7 +1,7 @@
 //! What can be said to `quasilux annual`.
 
 use super::OutputArguments;
-use super::values::{hours_of_day, level, share, whole};
+use super::values::{hours_of_day, illuminance, level, share, whole};
 use clap::Args;
 use std::ops::Range;
 use std::path::PathBuf;
@@ -13,6 +13,9 @@ pub(crate) struct AnnualArguments {
     /// Wanted root mean square over hours of half-width over value, like 1% or 0.01
     #[arg(long, value_name = "SHARE", value_parser = share, default_value = "2%")]
     pub(crate) rel_tol: f64,
+    /// Half-width in lx that is enough in any hour, like 0.5 or 0.5lx
+    #[arg(long, value_name = "LUX", value_parser = illuminance, default_value = "1lx")]
+    pub(crate) abs_tol: f64,
     /// Confidence level of the intervals, like 95% or 0.99
     #[arg(long, value_name = "SHARE", value_parser = level)]
     pub(crate) confidence: Option<f64>,

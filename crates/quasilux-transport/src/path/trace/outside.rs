@@ -108,8 +108,8 @@ impl<S: Spectrum> Path<'_, S> {
         let u = context.draw(&mut self.sampler, purpose, Sampler::next_1d);
         let PathWork { shadows, suns, .. } = work;
         daylight.suns.samples(outside, vertex, u, suns, |sample| {
-            let SunSample { sun, way, light_sample } = sample;
-            daylight.note_asked(Whence::Sun(sun, way));
+            let SunSample { sun, place, light_sample } = sample;
+            daylight.note_asked(Whence::Sun(sun, place));
             shadows.ask(self.number, vertex, &light_sample);
         });
     }
