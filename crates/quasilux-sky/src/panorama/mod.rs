@@ -58,6 +58,9 @@ impl Panorama {
     /// W/(sr m2) as Radiance does: a luminance is 179 lm/W times 0.265 R + 0.670 G + 0.065 B, or
     /// times Y. Exposures and colour corrections of the file are undone.
     ///
+    /// It takes no more than 12 bytes for each pixel of the sky, 16 384 for each byte of a file that
+    /// it refuses, and 256 KiB.
+    ///
     /// # Errors
     /// With the line of the header for other files, pictures that are not twice as wide as high or
     /// wider than 16 384 pixels, and pixels that are cut short.
@@ -100,6 +103,12 @@ impl Panorama {
     #[must_use]
     pub fn with_middle_at(self, azimuth_deg: f64) -> Self {
         Self { middle_azimuth_deg: azimuth_deg, ..self }
+    }
+
+    /// How many pixels show the sky.
+    #[must_use]
+    pub fn pixels(&self) -> usize {
+        self.luminances_cd_m2.len()
     }
 
     /// The luminance of the pixel that shows a direction, a unit vector; 0 below the horizon. The

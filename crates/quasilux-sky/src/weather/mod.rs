@@ -98,7 +98,7 @@ const MAX_IRRADIANCE_W_M2: f64 = 2000.0;
 const MAX_ILLUMINANCE_LX: f64 = 250_000.0;
 
 impl Weather {
-    /// Reads a file.
+    /// Reads a file, in no more memory than 128 bytes for each of its bytes, and 64 KiB.
     ///
     /// # Errors
     /// With the line and the column of what is neither EPW nor WEA.
