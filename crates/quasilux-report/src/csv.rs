@@ -1,10 +1,11 @@
 //! One sensor as comma-separated values: a header with units, then one line a point.
 //!
 //! Fields are numbers, so none needs the quoting of RFC 4180; lines end in LF; a missing number is
-//! an empty field.
+//! an empty field. Where only the sky shines, columns of the daylight factor and of its parts
+//! follow, shares, each with its half-width.
 
-use crate::SensorReport;
 use crate::number::exact;
+use crate::{DaylightFactor, SensorReport};
 use std::fmt::Write;
 
 const COLUMNS: &str = "x_m,y_m,z_m,nx,ny,nz,illuminance_lx,half_width_lx,direct_lx";
@@ -18,6 +19,10 @@ pub fn csv(sensor: &SensorReport) -> String {
         text.push_str("i,j,");
     }
     text.push_str(COLUMNS);
+    let daylight = sensor.points.iter().find_map(|point| point.daylight_factor);
+    for (name, _) in daylight.iter().flat_map(DaylightFactor::columns) {
+        write!(text, ",{name},{name}_half_width").expect("strings grow");
+    }
     text.push('\n');
     for (index, point) in sensor.points.iter().enumerate() {
         if let Some(grid) = &sensor.grid {
@@ -26,10 +31,11 @@ pub fn csv(sensor: &SensorReport) -> String {
         }
         let place = point.position_m.to_array().into_iter().chain(point.normal.to_array());
         let light = [point.illuminance_lx.value, point.illuminance_lx.half_width, point.direct_lx];
-        let fields: Vec<String> = place
-            .map(exact)
-            .chain(light.into_iter().map(|x| x.map(exact).unwrap_or_default()))
-            .collect();
+        let daylight = point.daylight_factor.iter().flat_map(DaylightFactor::columns);
+        let daylight = daylight.flat_map(|(_, figure)| [figure.value, figure.half_width]);
+        let light = light.into_iter().chain(daylight);
+        let fields: Vec<String> =
+            place.map(exact).chain(light.map(|x| x.map(exact).unwrap_or_default())).collect();
         text.push_str(&fields.join(","));
         text.push('\n');
     }
@@ -39,7 +45,7 @@ pub fn csv(sensor: &SensorReport) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::example;
+    use crate::{DaylightFactorComponents, Figure, example};
 
     #[test]
     fn grids_have_indices_and_every_number_reads_back() {
@@ -59,6 +65,25 @@ mod tests {
             assert_eq!(Some(row[10]), point.direct_lx);
         }
         assert!(text.ends_with('\n') && !text.contains('\r'));
+    }
+
+    #[test]
+    fn daylight_factors_follow() {
+        let mut report = example::without_intervals();
+        let figure = |value| Figure { value: Some(value), half_width: None };
+        let [sky, externally_reflected, internally_reflected] = [0.25, 0.125, 0.5].map(figure);
+        let parts = DaylightFactorComponents { sky, externally_reflected, internally_reflected };
+        report.sensors[0].points[0].daylight_factor =
+            Some(DaylightFactor { total: figure(0.875), components: Some(parts) });
+        let text = csv(&report.sensors[0]);
+        let [head, line] = [0, 1].map(|n| text.lines().nth(n).unwrap());
+        assert!(head.ends_with(
+            ",direct_lx,daylight_factor,daylight_factor_half_width,sky_component,\
+             sky_component_half_width,externally_reflected_component,\
+             externally_reflected_component_half_width,internally_reflected_component,\
+             internally_reflected_component_half_width"
+        ));
+        assert!(line.ends_with(",80.0,0.875,,0.25,,0.125,,0.5,"), "{line}");
     }
 
     #[test]

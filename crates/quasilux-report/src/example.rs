@@ -164,6 +164,7 @@ fn report(sensors: Vec<(Sensor, Vec<Vec<f64>>)>, settings: &Settings) -> Report 
         threads: 2,
         expected_bytes: Some(96 << 20),
         maintenance_factor: None,
+        daylight: None,
         warnings: vec![WARNING.into()],
         findings: Vec::new(),
     };

@@ -24,7 +24,7 @@ pub mod table;
 
 pub use camera::{CameraFiles, CameraReport};
 pub use figure::Figure;
-pub use outside::Outside;
+pub use outside::{DaylightFactor, DaylightFactorComponents, Outside};
 pub use picture::{PictureOf, camera_false_colour_png, exr, false_colour_png, tone_mapped_png};
 pub use plan::plan;
 pub use quasilux_drawing::picture::PlanMark;

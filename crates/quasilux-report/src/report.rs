@@ -6,13 +6,13 @@
 
 use crate::CameraReport;
 use crate::figure::{Figure, finite};
-use crate::outside::Outside;
+use crate::outside::{DaylightFactor, Outside};
 use glam::DVec3;
 use quasilux_inspection::Finding;
 use quasilux_scene::{Grid, Scene, SensorShape};
 use quasilux_transport::{
-    Convergence, Decisions, Dimensions, Estimates, Explanation, FluxBalance, SensorEstimates,
-    Settings,
+    Convergence, DaylightComponents, Decisions, Dimensions, Estimates, Explanation, FluxBalance,
+    SensorEstimates, Settings,
 };
 
 /// What the program that ran the simulation knows and the simulation does not.
@@ -37,6 +37,8 @@ pub struct RunFacts {
     pub expected_bytes: Option<u64>,
     /// What the lights give in use over what they give when new, if the project says so.
     pub maintenance_factor: Option<f64>,
+    /// What is known of daylight at the points, sensor by sensor, if anything.
+    pub daylight: Option<Vec<DaylightComponents>>,
     /// Warnings of the loaders.
     pub warnings: Vec<String>,
     /// What is probably wrong with the scene.
@@ -103,6 +105,8 @@ pub struct PointReport {
     pub illuminance_lx: Figure,
     /// The part of it that comes straight from the lights, in lx.
     pub direct_lx: Option<f64>,
+    /// The share of the light outside, where only the sky shines.
+    pub daylight_factor: Option<DaylightFactor>,
     /// Indices used by each replicate for this point.
     pub samples: u64,
 }
@@ -178,8 +182,15 @@ impl Report {
     #[must_use]
     pub fn new(scene: &Scene, settings: &Settings, estimates: &Estimates, facts: RunFacts) -> Self {
         assert_eq!(scene.sensors.len(), estimates.sensors.len(), "estimates of another scene");
-        let sensors: Vec<SensorReport> =
+        let outside = Outside::new(scene);
+        let mut sensors: Vec<SensorReport> =
             (0..scene.sensors.len()).map(|s| SensorReport::new(scene, estimates, s)).collect();
+        let points = sensors.iter_mut().flat_map(|sensor| &mut sensor.points);
+        for (number, point) in points.enumerate() {
+            let components = facts.daylight.as_ref().and_then(|daylight| daylight.get(number));
+            point.daylight_factor = outside
+                .and_then(|outside| outside.daylight_factor(point.illuminance_lx, components));
+        }
         assert_eq!(scene.cameras.len(), estimates.cameras.len(), "estimates of another scene");
         let cameras =
             (0..scene.cameras.len()).map(|c| CameraReport::new(scene, estimates, c)).collect();
@@ -196,7 +207,7 @@ impl Report {
         Self {
             sensors,
             cameras,
-            outside: Outside::new(scene),
+            outside,
             run: Run {
                 version: facts.version,
                 build: facts.build,
@@ -254,6 +265,7 @@ impl SensorReport {
                 normal: point.normal,
                 illuminance_lx: intervals.get(i).map(|&x| x.into()).unwrap_or_default(),
                 direct_lx: direct_lx.get(i).and_then(|&x| finite(x)),
+                daylight_factor: None,
                 samples: samples.get(i).copied().unwrap_or_default(),
             })
             .collect();

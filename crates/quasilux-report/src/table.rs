@@ -72,17 +72,25 @@ fn sensors(report: &Report, style: Style) -> String {
     let figures = |figure: fn(&Summary) -> Figure| {
         report.sensors.iter().map(move |sensor| figure(&sensor.summary))
     };
-    lines(
-        vec![
-            Column::left("sensor", cells(|s| printable(&s.name))),
-            Column::left("points", cells(points)),
-            Column::figures("average", " lx", figures(|s| s.average_lx)),
-            Column::figures("minimum", " lx", figures(|s| s.minimum_lx)),
-            Column::figures("maximum", " lx", figures(|s| s.maximum_lx)),
-            Column::figures("uniformity", "", figures(|s| s.uniformity)),
-        ],
-        style,
-    )
+    let factor = |sensor: &SensorReport| {
+        let outside = report.outside?;
+        let share = outside.daylight_factor(sensor.summary.average_lx, None)?.total;
+        let percent = |share: Option<f64>| share.map(|share| 100.0 * share);
+        Some(Figure { value: percent(share.value), half_width: percent(share.half_width) })
+    };
+    let factors: Vec<Figure> = report.sensors.iter().filter_map(factor).collect();
+    let mut columns = vec![
+        Column::left("sensor", cells(|s| printable(&s.name))),
+        Column::left("points", cells(points)),
+        Column::figures("average", " lx", figures(|s| s.average_lx)),
+        Column::figures("minimum", " lx", figures(|s| s.minimum_lx)),
+        Column::figures("maximum", " lx", figures(|s| s.maximum_lx)),
+        Column::figures("uniformity", "", figures(|s| s.uniformity)),
+    ];
+    if !factors.is_empty() {
+        columns.push(Column::figures("daylight factor", " %", factors.into_iter()));
+    }
+    lines(columns, style)
 }
 
 /// One line a camera.

@@ -88,6 +88,8 @@ pub(crate) enum Stream {
     WitnessPaths(u64),
     /// Paths from one sensor point, numbered through all sensors.
     Paths(u64),
+    /// The same of paths that know where light was reflected.
+    DaylightPaths(u64),
     /// The sun as one sensor point sees it straight, numbered through all sensors.
     SunDisks(u64),
     /// Where meshes of directions lie.
@@ -126,6 +128,7 @@ impl Stream {
             Self::PictureLights => u64::MAX - 68,
             Self::WitnessPaths(point) => (1 << 61) + point,
             Self::SunDisks(point) => (3 << 60) + point,
+            Self::DaylightPaths(point) => (5 << 60) + point,
             Self::Meshes => u64::MAX - 69,
             Self::Paths(point) => 2 + point,
             Self::EyeSubpaths(point) => (1 << 60) + 2 * point,
@@ -155,6 +158,7 @@ impl Stream {
                 | Self::WitnessPhotons
                 | Self::PictureLights
                 | Self::WitnessPaths(_)
+                | Self::DaylightPaths(_)
                 | Self::SunDisks(_)
                 | Self::Meshes
                 | Self::EyeSubpaths(_)
@@ -261,10 +265,10 @@ mod tests {
     #[test]
     fn streams_have_numbers_of_their_own() {
         use Stream::{
-            CausticPhotons, CellPhotons, ConnectedPhotons, ConnectionPlaces, EyeSubpaths,
-            FirstShotPilots, LightSubpaths, MapPilots, Meshes, Paths, Photons, PictureLights,
-            PlanPhotons, SunDisks, Survey, WindowPilots, WitnessPaths, WitnessPhotons,
-            WitnessPlaces,
+            CausticPhotons, CellPhotons, ConnectedPhotons, ConnectionPlaces, DaylightPaths,
+            EyeSubpaths, FirstShotPilots, LightSubpaths, MapPilots, Meshes, Paths, Photons,
+            PictureLights, PlanPhotons, SunDisks, Survey, WindowPilots, WitnessPaths,
+            WitnessPhotons, WitnessPlaces,
         };
         let single =
             [Photons, PlanPhotons, MapPilots, FirstShotPilots, WindowPilots, CausticPhotons];
@@ -277,6 +281,7 @@ mod tests {
                 ConnectedPhotons,
                 ConnectionPlaces,
                 Paths,
+                DaylightPaths,
                 SunDisks,
                 EyeSubpaths,
                 LightSubpaths,

@@ -22,13 +22,15 @@
 //! - `explain`: where the variance comes from
 //! - `run`: a run from start to result, in one piece or in parts
 //!
-//! Beside them: `codec`, states of a run as bytes; `context`, the scene made ready; `settings`.
+//! Beside them: `codec`, states of a run as bytes; `context`, the scene made ready;
+//! `daylight_factor`, the components of daylight; `settings`.
 
 mod annual;
 mod bsdf;
 mod codec;
 mod context;
 mod cutoff;
+mod daylight_factor;
 mod estimator;
 pub mod explain;
 mod importance;
@@ -52,6 +54,7 @@ pub use annual::{
 };
 pub use bsdf::Scattering;
 pub use codec::StateError;
+pub use daylight_factor::{DaylightComponents, daylight_components};
 pub use explain::{Explanation, explain};
 pub use prepared::PreparedScene;
 pub use quasilux_sampling::DimensionHistogram;

@@ -21,7 +21,9 @@
 //! all of more than 1023 together at its end, `photons`, how many began in all, `null` where none
 //! did, and `mean_events`, surfaces that a `photon` came to on average. A point that reached its
 //! tolerance before others has its own number of `samples`. Where the sky shines, `outside` has its
-//! horizontal illuminance, and where nothing else does each point its `daylight_factor`, a share.
+//! horizontal illuminance, and where nothing else does each point its `daylight_factor`, a share;
+//! beside openings in its parts, `sky_component`, `externally_reflected_component` and
+//! `internally_reflected_component`.
 //! Where it was asked for, `explain` says which coordinates carry the variance. `findings` are what
 //! is probably wrong with the scene, each with the `check` that found it, place and `cure`;
 //! `warnings` have them as text, too.
@@ -33,7 +35,7 @@ mod layout;
 mod prediction;
 mod terms;
 
-use crate::{Figure, Outside, Report, Run, SensorReport};
+use crate::{DaylightFactor, Figure, Outside, Report, Run, SensorReport};
 pub use finding::FindingEntry;
 
 use camera::CameraEntry;
@@ -42,6 +44,7 @@ use layout::Layout;
 use prediction::PredictionEntry;
 use quasilux_transport::{Decisions, DimensionHistogram, Dimensions, EstimatorKind, Settings};
 use serde::Serialize;
+use serde_json::{Map, Value, json};
 use terms::TermEntry;
 
 /// Name and version of the document's format.
@@ -99,10 +102,8 @@ struct PointEntry {
     illuminance_lx: Option<f64>,
     half_width_lx: Option<f64>,
     direct_lx: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    daylight_factor: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    daylight_factor_half_width: Option<f64>,
+    #[serde(flatten)]
+    daylight: Map<String, Value>,
     #[serde(skip_serializing_if = "Option::is_none")]
     samples: Option<u64>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -279,20 +280,27 @@ fn selected(estimator: EstimatorKind, decisions: &Decisions) -> &'static str {
 impl PointEntry {
     fn new(sensor: &SensorReport, number: usize, report: &Report) -> Self {
         let point = &sensor.points[number];
-        let outside = report.outside.as_ref();
-        let factor = outside.and_then(|outside| outside.daylight_factor(point.illuminance_lx));
         Self {
             position: point.position_m.to_array(),
             normal: point.normal.to_array(),
             illuminance_lx: point.illuminance_lx.value,
             half_width_lx: point.illuminance_lx.half_width,
             direct_lx: point.direct_lx,
-            daylight_factor: factor.and_then(|factor| factor.value),
-            daylight_factor_half_width: factor.and_then(|factor| factor.half_width),
+            daylight: point.daylight_factor.map(daylight).unwrap_or_default(),
             samples: Some(point.samples).filter(|samples| *samples != report.run.samples),
             terms_lx: TermEntry::all(&sensor.terms, |term| term.points_lx[number]),
         }
     }
+}
+
+/// A daylight factor and its parts, each with the half-width.
+fn daylight(factor: DaylightFactor) -> Map<String, Value> {
+    let mut entries = Map::new();
+    for (name, Figure { value, half_width }) in factor.columns() {
+        entries.insert(name.to_owned(), json!(value));
+        entries.insert(format!("{name}_half_width"), json!(half_width));
+    }
+    entries
 }
 
 impl OutsideEntry {

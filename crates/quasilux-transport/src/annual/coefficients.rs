@@ -4,10 +4,11 @@
 //! Technology 15, 1983).
 
 use super::mesh::{Mesh, Share, Spacing};
-use super::paths::{TargetReplicate, sun_ways, trace};
+use super::pilot::sun_ways;
 use crate::context::{Context, Stream};
 use crate::lights::Suns;
-use crate::path::daylight::{FromOutside, Whence};
+use crate::path::daylight::{DaylightSearch, FromOutside, Whence};
+use crate::path::daylight_paths::{TargetReplicate, trace};
 use crate::path::wave::PathWave;
 use crate::spectrum::Spectrum;
 use crate::stats::tally::checked_quanta;
@@ -142,10 +143,11 @@ impl Sums {
         wave: &mut PathWave<S>,
     ) -> u64 {
         self.paths += indices.end - indices.start;
-        trace(context, &meshes.suns, place, indices, wave, |found| self.add(meshes, found))
+        let search = DaylightSearch { suns: &meshes.suns, only_from_beyond: false };
+        trace(context, search, place, indices, wave, |found| self.add(meshes, found))
     }
 
-    fn add(&mut self, meshes: &Meshes, FromOutside { whence, light }: FromOutside) {
+    fn add(&mut self, meshes: &Meshes, FromOutside { whence, light, .. }: FromOutside) {
         let (direction, is_mirrored) = match whence {
             Whence::Sun(sun, _) => {
                 return add(&mut self.suns[sun as usize], light, &mut self.invalid);

@@ -1,6 +1,6 @@
 //! A year of hours for about the work of one: [`simulate_year`].
 //!
-//! Paths from a sensor point (`paths`) know nothing of any hour: what they find of the sky, of the
+//! Paths from a sensor point (`path::daylight_paths`) know nothing of any hour: what they find of the sky, of the
 //! ground and of places of the sun is kept apart (`coefficients`), on a mesh of directions
 //! (`mesh`). An hour is a product of these coefficients with its luminances (`hours`), and what
 //! comes straight from its sun, for which every hour has its own rays (`sun_disks`). All is done in
@@ -14,7 +14,7 @@
 mod coefficients;
 mod hours;
 mod mesh;
-mod paths;
+mod pilot;
 mod results;
 mod state;
 mod sun_disks;

@@ -3,10 +3,10 @@
 
 use super::coefficients::{Meshes, Sums};
 use super::hours::HourTable;
-use super::paths::TargetReplicate;
 use super::results::{PointOfYear, YearWork};
 use super::sun_disks::{ShiningSun, SunDisks, SunLight};
 use crate::context::Context;
+use crate::path::daylight_paths::TargetReplicate;
 use crate::path::wave::PathWave;
 use crate::settings::Settings;
 use crate::spectrum::Spectrum;

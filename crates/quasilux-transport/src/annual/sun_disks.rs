@@ -5,8 +5,8 @@
 //! replicate gets many. The rays that decide are not among those that count, so that no choice of
 //! theirs makes a bias.
 
-use super::paths::TargetReplicate;
 use crate::context::{Context, Stream};
+use crate::path::daylight_paths::TargetReplicate;
 use crate::purpose::Purpose;
 use crate::spectrum::Spectrum;
 use crate::stats::tally::checked_quanta;

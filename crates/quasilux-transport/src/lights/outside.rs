@@ -29,9 +29,10 @@ use crate::world::{Facet, World};
 use glam::DVec3;
 use quasilux_bvh::{Corners, PreparedRay, Ray, intersect};
 use quasilux_sampling::choose_weights;
+use quasilux_sampling::warp::sample_cosine_hemisphere;
 use quasilux_scene::{Environment, Opening, Scene};
 use quasilux_sky::solid_angle_of_the_sun_sr;
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_1_PI, TAU};
 
 /// What a cosine counts at least: openings reach further than their centres.
 const MIN_COSINE: f64 = 0.1;
@@ -62,6 +63,15 @@ struct SunDisk {
     normal_illuminance_lx: f64,
     luminance_cd_m2: f64,
     solid_angle_sr: f64,
+}
+
+/// A direction in which a path goes on.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct OnwardDirection {
+    pub(crate) direction: DVec3,
+    pub(crate) pdf_sr: f64,
+    /// Cosine over density.
+    pub(crate) weight: f64,
 }
 
 /// All portals as a place chooses among them, in their order; `None` for those edge-on.
@@ -119,8 +129,20 @@ impl<'a> OutsideLight<'a> {
         !self.portals.is_empty() || self.bright.is_some()
     }
 
+    /// Whether the openings are named, and not found.
+    pub(crate) fn names_openings(&self) -> bool {
+        !self.environment.openings.is_empty()
+    }
+
+    /// Whether the way from one place to another passes an opening.
+    pub(crate) fn opens(&self, [from, to]: [DVec3; 2]) -> bool {
+        let prepared = PreparedRay::new(&Ray::new(from, to - from));
+        let passed = |portal: &Portal| intersect(&prepared, &portal.corners, 0);
+        self.portals.iter().filter_map(passed).any(|hit| hit.distance <= 1.0)
+    }
+
     /// Whether there are openings.
-    pub(super) fn has_portals(&self) -> bool {
+    pub(crate) fn has_portals(&self) -> bool {
         !self.portals.is_empty()
     }
 
@@ -153,25 +175,16 @@ impl<'a> OutsideLight<'a> {
     }
 
     /// What comes through one point of the openings or from a bright pixel, weighted against the
-    /// direction in which the path goes on.
+    /// direction in which the path goes on, which is drawn in the same way with a chance.
     pub(crate) fn light_sample<S: Spectrum>(
         &self,
         vertex: &Vertex<'_, S>,
+        onward_share: f64,
         u: [f64; 2],
     ) -> Option<LightSample<S>> {
         let place = Asking::at(vertex);
         let seen = self.seen(place);
-        let direction = match &self.bright {
-            Some(bright) if u[0] < bright.share => bright.sample([u[0] / bright.share, u[1]]),
-            _ => {
-                let share = self.bright_share();
-                let u_portal = (u[0] - share) / (1.0 - share);
-                let choice = choose_weights(u_portal, seen.portals.iter().map(Seen::weight))?;
-                let portal = seen.portals[choice.index].as_ref()?;
-                let point = portal.triangle.sample_point([choice.u_remapped, u[1]]);
-                (point - place.position).normalize_or_zero()
-            }
-        };
+        let direction = self.sample_direction(&seen, place, u)?;
         let cos = vertex.cos(direction);
         if cos <= 0.0 {
             return None;
@@ -181,11 +194,47 @@ impl<'a> OutsideLight<'a> {
         if pdf_sr <= 0.0 {
             return None;
         }
-        let beside_sr = vertex.pdf_sr(direction);
+        let beside_sr = mixed(onward_share, pdf_sr, vertex.pdf_sr(direction));
         let lx_sr = self.luminance_cd_m2(direction) * cos;
         let illuminance_lx = lx_sr / (pdf_sr + beside_sr * (beside_sr / pdf_sr));
         let light = vertex.weight(direction) * illuminance_lx;
         self.light_sample_of(direction, light, illuminance_lx)
+    }
+
+    /// A direction through one point of the openings or to a bright pixel.
+    fn sample_direction(&self, seen: &SeenPortals, place: Asking, u: [f64; 2]) -> Option<DVec3> {
+        let share = self.bright_share();
+        if let Some(bright) = self.bright.as_ref().filter(|_| u[0] < share) {
+            return Some(bright.sample([u[0] / share, u[1]]));
+        }
+        let u_portal = (u[0] - share) / (1.0 - share);
+        let choice = choose_weights(u_portal, seen.portals.iter().map(Seen::weight))?;
+        let portal = seen.portals[choice.index].as_ref()?;
+        let point = portal.triangle.sample_point([choice.u_remapped, u[1]]);
+        Some((point - place.position).normalize_or_zero())
+    }
+
+    /// A direction in which a path goes on from a place with the side `n`: a share of them like
+    /// those that [`Self::light_sample`] asks along, the others cosine-distributed. `None` for one
+    /// that gives nothing.
+    pub(crate) fn sample_onward(
+        &self,
+        place: Asking,
+        n: DVec3,
+        onward_share: f64,
+        u: [f64; 2],
+    ) -> Option<OnwardDirection> {
+        let seen = self.seen(place);
+        let direction = if u[0] < onward_share {
+            self.sample_direction(&seen, place, [u[0] / onward_share, u[1]])?
+        } else {
+            let u = [(u[0] - onward_share) / (1.0 - onward_share), u[1]];
+            Frame::around(n).to_world(DVec3::from_array(sample_cosine_hemisphere(u)))
+        };
+        let cos = n.dot(direction).max(0.0);
+        let asked_sr = self.pdf_of(&seen, place, direction);
+        let pdf_sr = mixed(onward_share, asked_sr, cos * FRAC_1_PI);
+        (cos > 0.0).then_some(OnwardDirection { direction, pdf_sr, weight: cos / pdf_sr })
     }
 
     /// Density in sr^-1 with which [`Self::light_sample`] asks along a direction.
@@ -277,6 +326,11 @@ impl<'a> OutsideLight<'a> {
         let all = self.portals.iter().zip(&seen.portals);
         all.filter_map(of_portal).sum::<f64>() / seen.total
     }
+}
+
+/// A density of a mixture.
+fn mixed(share: f64, pdf: f64, other: f64) -> f64 {
+    share * pdf + (1.0 - share) * other
 }
 
 impl SunDisk {

@@ -1,5 +1,5 @@
-//! What paths find outside, kept by the direction that it comes from: any sky and any sun can be
-//! put there when they are over.
+//! What paths find outside, kept by the direction that it comes from and by where it was reflected
+//! last: any sky and any sun can be put there when they are over.
 
 use crate::lights::{SunPlace, Suns};
 use glam::DVec3;
@@ -16,35 +16,105 @@ pub(crate) enum Whence {
     Sun(u32, SunPlace),
 }
 
+/// Where light was reflected last on its way to the start of a path.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum LastReflection {
+    /// Nowhere: it comes straight from where it comes from, or through sheets.
+    Nowhere,
+    /// Beyond an opening, as the start sees it.
+    Beyond,
+    /// On this side of all openings.
+    Within,
+}
+
 /// What a path found.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FromOutside {
     pub(crate) whence: Whence,
-    /// What its start gets in lx of 1 cd/m2 there, or of a sun of 1 lx.
+    pub(crate) reflection: LastReflection,
+    /// What its start gets in lx of 1 cd/m2 there, or of a sun of 1 lx; of what shines there where
+    /// the scene has its own sky.
     pub(crate) light: f64,
+}
+
+/// How paths keep what they find apart.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct DaylightSearch<'p> {
+    pub(crate) suns: &'p Suns,
+    /// Whether light that was reflected within does not count: they end there.
+    pub(crate) only_from_beyond: bool,
+}
+
+impl DaylightSearch<'_> {
+    /// The share of paths that leave their start as if they asked for light from outside: the most
+    /// where all others end at once, but for those through openings that are not known.
+    pub(crate) fn onward_share(&self) -> f64 {
+        if self.only_from_beyond { 0.75 } else { 0.0 }
+    }
 }
 
 /// A path that keeps what it finds apart.
 #[derive(Clone, Debug)]
 pub(crate) struct Daylight<'p> {
-    pub(crate) suns: &'p Suns,
-    /// What it asked for and has not heard of, in order.
-    asked: VecDeque<Whence>,
+    pub(crate) search: DaylightSearch<'p>,
+    /// Whether it has passed an opening.
+    is_beyond: bool,
+    reflection: LastReflection,
+    /// What it asked for and has not heard of, in order: where from, and the first reflection.
+    asked: VecDeque<Asked>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Asked {
+    whence: Whence,
+    reflection: LastReflection,
 }
 
 impl<'p> Daylight<'p> {
-    pub(crate) fn new(suns: &'p Suns) -> Self {
-        Self { suns, asked: VecDeque::new() }
+    pub(crate) fn new(search: DaylightSearch<'p>) -> Self {
+        let reflection = LastReflection::Nowhere;
+        Self { search, is_beyond: false, reflection, asked: VecDeque::new() }
     }
 
-    pub(crate) fn note_asked(&mut self, whence: Whence) {
-        self.asked.push_back(whence);
+    /// Passes an opening.
+    pub(crate) fn pass_opening(&mut self) {
+        self.is_beyond = true;
+    }
+
+    /// Leaves a surface on the side that it came to.
+    pub(crate) fn reflect(&mut self) {
+        self.reflection = self.after_reflection();
+    }
+
+    /// Where light was reflected last that this vertex reflects to it.
+    fn after_reflection(&self) -> LastReflection {
+        match self.reflection {
+            LastReflection::Nowhere if self.is_beyond => LastReflection::Beyond,
+            LastReflection::Nowhere => LastReflection::Within,
+            known => known,
+        }
+    }
+
+    /// Whether what a surface reflects would not count.
+    pub(crate) fn leaves_reflected(&self) -> bool {
+        self.search.only_from_beyond && self.after_reflection() == LastReflection::Within
+    }
+
+    /// What it finds where it leaves the scene.
+    pub(crate) fn found(&self, whence: Whence, light: f64) -> FromOutside {
+        FromOutside { whence, reflection: self.reflection, light }
+    }
+
+    /// Asks for light; `is_reflected` where it would be reflected here.
+    pub(crate) fn note_asked(&mut self, whence: Whence, is_reflected: bool) {
+        let reflection = if is_reflected { self.after_reflection() } else { self.reflection };
+        self.asked.push_back(Asked { whence, reflection });
     }
 
     /// What the next answer is about: one of no light tells where no sun shines.
     pub(crate) fn answered(&mut self, light: Option<f64>) -> Option<FromOutside> {
-        let whence = self.asked.pop_front()?;
-        let light = light.or(self.suns.is_learning().then_some(0.0));
-        light.map(|light| FromOutside { whence, light })
+        let Asked { whence, reflection } = self.asked.pop_front()?;
+        let light = light.or(self.search.suns.is_learning().then_some(0.0));
+        light.map(|light| FromOutside { whence, reflection, light })
     }
 }

@@ -2,6 +2,7 @@
 
 pub(crate) mod contribution;
 pub(crate) mod daylight;
+pub(crate) mod daylight_paths;
 pub(crate) mod end;
 pub(crate) mod frozen_map;
 pub(crate) mod light_subpath;

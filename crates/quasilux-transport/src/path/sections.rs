@@ -155,7 +155,7 @@ impl<S: Spectrum> Section<'_, S> {
                 caustics: self.caustics,
                 partition: self.partition,
                 light_subpath: self.light_subpath(index),
-                suns: None,
+                daylight: None,
                 sampler,
             }
         })

@@ -1,6 +1,6 @@
 //! Start of a path: a sensor point or a pixel, and the quantity measured there.
 
-use crate::lights::Suns;
+use crate::path::daylight::DaylightSearch;
 use crate::path::end::Rest;
 use crate::path::partition::Partition;
 use crate::path::sketch::{PixelSketch, ProbedLights};
@@ -26,8 +26,8 @@ pub(crate) struct Start<'p, S> {
     pub(crate) pixel: Option<&'p PixelSketch>,
     /// The coordinates of a light subpath that it is connected to; `None` for plain paths.
     pub(crate) light_subpath: Option<Sampler<'p>>,
-    /// Where the sun may stand, if what comes from outside is kept apart by direction.
-    pub(crate) suns: Option<&'p Suns>,
+    /// Where what comes from outside is kept apart, how.
+    pub(crate) daylight: Option<DaylightSearch<'p>>,
     pub(crate) sampler: Sampler<'p>,
 }
 

@@ -39,18 +39,16 @@ use crate::photon::caustics::CausticLookup;
 use crate::photon::virtual_lights::Sums;
 use crate::purpose::Purpose;
 use crate::spectrum::Spectrum;
-use crate::world::frame::Frame;
 use crate::world::vertex::{Surface, Vertex};
 use crate::world::visibility::{Answer, ShadowQueue};
 use crate::world::{Interaction, RayOrigin};
 use connect::Connection;
 use glam::DVec3;
-use outside::{AskedOutside, OutsideFactors, is_pane};
+use outside::{AskedOutside, OutsideFactors, first_direction, is_pane};
 use quasilux_bvh::RayQuery;
 use quasilux_sampling::Sampler;
-use quasilux_sampling::warp::sample_cosine_hemisphere;
 use specular_way::{Asked, SpecularWay};
-use std::f64::consts::{FRAC_1_PI, PI};
+use std::f64::consts::FRAC_1_PI;
 
 /// A path that is over.
 pub(crate) struct PathResult<S> {
@@ -159,13 +157,12 @@ impl<'p, S: Spectrum> Path<'p, S> {
         work: &mut PathWork<S>,
     ) -> Self {
         let Start { from, measurement, rest, caustics, partition, virtual_lights, .. } = start;
-        let Start { light_subpath, pixel, suns, mut sampler, .. } = start;
+        let Start { light_subpath, pixel, daylight, mut sampler, .. } = start;
         let (direction, pdf_sr, beta) = match measurement {
             Measurement::Illuminance { n, .. } => {
                 let u = context.draw(&mut sampler, Purpose::FirstDirection, Sampler::next_2d);
-                let first = DVec3::from_array(sample_cosine_hemisphere(u));
-                let direction = Frame::around(n).to_world(first);
-                (direction, Some(first.z * FRAC_1_PI), S::white() * PI)
+                let first = first_direction(context, from, n, daylight, u);
+                (first.direction, Some(first.pdf_sr), S::white() * first.weight)
             }
             Measurement::Luminance { direction } => (direction, None, S::white()),
         };
@@ -186,7 +183,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
             asked_from: None,
             specular_way: None,
             asked_outside: None,
-            daylight: suns.map(Daylight::new),
+            daylight: daylight.map(Daylight::new),
             beta,
             beta_emitted: beta,
             beta_outside: OutsideFactors { here: beta, past_panes: beta },
@@ -297,7 +294,11 @@ impl<'p, S: Spectrum> Path<'p, S> {
             record.begin([before, self.found.indirect]);
         }
         let Some(at) = at else { return false };
+        self.note_openings(context, at);
         let surface = &Surface::new(&context.world, at, self.direction);
+        if !self.may_count(surface.bsdf) {
+            return false;
+        }
         let &Surface { bsdf, wo, .. } = surface;
         if !self.takes_from_virtual_lights(bsdf, at) {
             return false;
@@ -378,6 +379,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
             );
         }
         self.note_specular_way(context, at, wo, &next);
+        self.note_side(context, &next);
         self.note_asked_outside(context, at, surface, bounces, &next);
         self.subpath = self.subpath.map(|subpath| scattered(subpath, bsdf, wo, next.wi));
         let world = &context.world;

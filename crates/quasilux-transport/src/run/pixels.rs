@@ -402,7 +402,7 @@ impl<'a, S: Spectrum> Darkroom<'a, S> {
             measurement: Measurement::Luminance { direction },
             rest: &Rest::Path,
             light_subpath: None,
-            suns: None,
+            daylight: None,
             sampler,
         }
     }

@@ -78,6 +78,11 @@ impl<'w, S: Spectrum> Vertex<'w, S> {
         self.from.facet()
     }
 
+    /// Whether it sends light from a direction back to the side that the path came from.
+    pub(crate) fn reflects(&self, direction: DVec3) -> bool {
+        !self.is_sensor() && self.n.dot(direction) > 0.0
+    }
+
     /// A number for the side of the facet that the path met; `None` for a sensor point.
     pub(crate) fn facet_side(&self) -> Option<u32> {
         let front = u32::from(self.surface?.front);

@@ -13,6 +13,7 @@ mod connections;
 mod corridor;
 mod coverage;
 mod cube;
+mod daylight_factor;
 mod dozen;
 mod dozen_scenes;
 mod element_size;

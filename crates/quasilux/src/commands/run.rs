@@ -14,7 +14,9 @@ use crate::{interrupt, project, results};
 use quasilux_inspection::{DarkPoints, Finding, explain_darkness};
 use quasilux_report::{PictureOf, Report, RunFacts, Style, json, table};
 use quasilux_scene::Scene;
-use quasilux_transport::{Estimates, PreparedScene};
+use quasilux_transport::{
+    DaylightComponents, Estimates, PreparedScene, Settings, daylight_components,
+};
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 
@@ -145,6 +147,7 @@ pub(crate) fn work(
     let seconds = watcher.finish();
     let Some(estimates) = outcome? else { return Ok(None) };
     findings.extend(pool.install(|| in_the_dark(project, &prepared, &estimates, &findings)));
+    let daylight = pool.install(|| daylight(&prepared, settings, &estimates));
     let samples = estimates.convergence.samples.unwrap_or(estimates.samples);
     let facts = RunFacts {
         version: VERSION.to_owned(),
@@ -156,6 +159,7 @@ pub(crate) fn work(
         threads,
         expected_bytes: Some(forecast.bytes(Some(samples))),
         maintenance_factor: Some(project.loaded.maintenance_factor),
+        daylight,
         warnings: project.loaded.warnings.iter().map(ToString::to_string).collect(),
         findings,
     };
@@ -167,6 +171,20 @@ pub(crate) fn work(
     let report = Report::new(scene, settings, &estimates, facts);
     let Watcher { stopped, remarks, .. } = watcher;
     Ok(Some(Finished { report, estimates, stopped, remarks, exit }))
+}
+
+/// The components of daylight at all sensor points, known like their illuminances.
+fn daylight(
+    prepared: &PreparedScene<'_>,
+    settings: &Settings,
+    estimates: &Estimates,
+) -> Option<Vec<DaylightComponents>> {
+    let sensors = 0..estimates.sensors.len();
+    let lx: Vec<f64> = sensors
+        .flat_map(|sensor| estimates.point_intervals(sensor))
+        .map(|interval| interval.value)
+        .collect();
+    daylight_components(prepared.clone(), settings, &lx)
 }
 
 /// Why no light was found at some sensor points.

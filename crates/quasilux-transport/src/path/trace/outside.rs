@@ -6,13 +6,17 @@
 use super::{Onward, Path, PathWork};
 use crate::bsdf::{Bsdf, BsdfSample};
 use crate::context::Context;
-use crate::lights::{Asking, SunSample};
-use crate::path::daylight::{FromOutside, Whence};
+use crate::lights::{Asking, OnwardDirection, SunSample};
+use crate::path::daylight::{Daylight, DaylightSearch, Whence};
 use crate::purpose::Purpose;
 use crate::spectrum::Spectrum;
-use crate::world::Interaction;
+use crate::world::frame::Frame;
 use crate::world::vertex::{Surface, Vertex};
+use crate::world::{Interaction, RayOrigin};
+use glam::DVec3;
 use quasilux_sampling::Sampler;
+use quasilux_sampling::warp::sample_cosine_hemisphere;
+use std::f64::consts::{FRAC_1_PI, PI};
 
 /// How a vertex asked for light along the direction in which the path left it.
 #[derive(Clone, Copy)]
@@ -62,6 +66,25 @@ impl AskedOutside {
     }
 }
 
+/// The direction in which a path leaves a sensor point with the side `n`.
+pub(super) fn first_direction<S: Spectrum>(
+    context: &Context<'_, S>,
+    from: RayOrigin,
+    n: DVec3,
+    daylight: Option<DaylightSearch<'_>>,
+    u: [f64; 2],
+) -> OnwardDirection {
+    let share = daylight.map_or(0.0, |search| search.onward_share());
+    if let Some(outside) = context.lights.outside.as_ref().filter(|_| share > 0.0) {
+        let place = Asking::at(&Vertex::<S>::sensor(from, n));
+        let nothing = OnwardDirection { direction: n, pdf_sr: 1.0, weight: 0.0 };
+        return outside.sample_onward(place, n, share, u).unwrap_or(nothing);
+    }
+    let first = DVec3::from_array(sample_cosine_hemisphere(u));
+    let direction = Frame::around(n).to_world(first);
+    OnwardDirection { direction, pdf_sr: first.z * FRAC_1_PI, weight: PI }
+}
+
 impl<S: Spectrum> Path<'_, S> {
     /// Asks for what comes through one point of the openings or from a bright pixel, and from one
     /// point of the sun.
@@ -76,9 +99,12 @@ impl<S: Spectrum> Path<'_, S> {
         if outside.is_asked_for() {
             let purpose = Purpose::Opening { surface };
             let u = context.draw(&mut self.sampler, purpose, Sampler::next_2d);
-            let sample = outside.light_sample(vertex, u);
+            let share = self.daylight.as_ref().filter(|_| vertex.is_sensor());
+            let onward_share = share.map_or(0.0, |daylight| daylight.search.onward_share());
+            let sample = outside.light_sample(vertex, onward_share, u);
             if let (Some(daylight), Some(sample)) = (&mut self.daylight, &sample) {
-                daylight.note_asked(Whence::Outside(sample.direction));
+                let whence = Whence::Outside(sample.direction);
+                daylight.note_asked(whence, vertex.reflects(sample.direction));
             }
             self.ask(sample, vertex, work);
         }
@@ -107,9 +133,10 @@ impl<S: Spectrum> Path<'_, S> {
         let purpose = Purpose::Sun { surface: self.bounces_asked };
         let u = context.draw(&mut self.sampler, purpose, Sampler::next_1d);
         let PathWork { shadows, suns, .. } = work;
-        daylight.suns.samples(outside, vertex, u, suns, |sample| {
+        daylight.search.suns.samples(outside, vertex, u, suns, |sample| {
             let SunSample { sun, place, light_sample } = sample;
-            daylight.note_asked(Whence::Sun(sun, place));
+            let is_reflected = vertex.reflects(light_sample.direction);
+            daylight.note_asked(Whence::Sun(sun, place), is_reflected);
             shadows.ask(self.number, vertex, &light_sample);
         });
     }
@@ -134,6 +161,37 @@ impl<S: Spectrum> Path<'_, S> {
         };
     }
 
+    /// Notes the named openings on its way to a surface.
+    pub(super) fn note_openings(&mut self, context: &Context<'_, S>, at: &Interaction) {
+        let Self { from, direction, daylight, .. } = self;
+        if let (Some(outside), Some(daylight)) = (&context.lights.outside, daylight)
+            && outside.names_openings()
+        {
+            // An opening in a pane is passed when the path goes on from there.
+            let rounding = *direction * context.world.hair_m();
+            let way = [from.position() - rounding, at.position - rounding];
+            if outside.opens(way) {
+                daylight.pass_opening();
+            }
+        }
+    }
+
+    /// Notes on which side of a surface it goes on. Sheets are the openings where none are named.
+    pub(super) fn note_side(&mut self, context: &Context<'_, S>, next: &BsdfSample<S>) {
+        let Some(daylight) = &mut self.daylight else { return };
+        if next.wi.z > 0.0 {
+            daylight.reflect();
+        } else if context.lights.outside.as_ref().is_some_and(|it| !it.names_openings()) {
+            daylight.pass_opening();
+        }
+    }
+
+    /// Whether anything that a surface sends counts: of some paths not what it reflects.
+    pub(super) fn may_count(&self, bsdf: &Bsdf<S>) -> bool {
+        let lets_through = || bsdf.transmits() || bsdf.straight_transmittance(1.0).is_some();
+        !self.daylight.as_ref().is_some_and(Daylight::leaves_reflected) || lets_through()
+    }
+
     /// Adds what it finds where it leaves the scene.
     pub(super) fn add_outside(&mut self, context: &Context<'_, S>, bounces: u32) {
         let Some(outside) = &context.lights.outside else { return };
@@ -147,12 +205,12 @@ impl<S: Spectrum> Path<'_, S> {
             None => found_cd_m2 += outside.sun_cd_m2(self.direction),
         }
         let light = self.beta_outside.here * found_cd_m2;
-        if self.daylight.is_some() {
+        if let Some(daylight) = &self.daylight {
             let whence = match self.asked_outside {
                 Some(_) => Whence::Outside(self.direction),
                 None => Whence::Mirrored(self.direction),
             };
-            self.found.from_outside.push(FromOutside { whence, light: light.luminance() });
+            self.found.from_outside.push(daylight.found(whence, light.luminance()));
             return;
         }
         self.found.add(bounces, light);

@@ -1,8 +1,7 @@
 //! Paths from a sensor point that keep what they find outside by its direction.
 
 use crate::context::{Context, Stream};
-use crate::lights::{SunWays, Suns};
-use crate::path::daylight::{FromOutside, Whence};
+use crate::path::daylight::{DaylightSearch, FromOutside};
 use crate::path::end::Rest;
 use crate::path::start::{Measurement, Start};
 use crate::path::wave::{PathWave, WAVE};
@@ -10,33 +9,29 @@ use crate::purpose::Purpose;
 use crate::spectrum::Spectrum;
 use crate::stats::targets::Target;
 use quasilux_sampling::Sampler;
-use rayon::prelude::*;
 use std::ops::Range;
-
-/// So many points, each with so many paths, say where the sun shines.
-const PILOT_POINTS: usize = 64;
-const PILOT_PATHS: u64 = 64;
 
 /// Whose paths they are.
 #[derive(Clone, Copy)]
-pub(super) struct TargetReplicate<'t> {
+pub(crate) struct TargetReplicate<'t> {
     /// The number of the target among all.
-    pub(super) number: usize,
-    pub(super) target: &'t Target,
-    pub(super) replicate: u32,
+    pub(crate) number: usize,
+    pub(crate) target: &'t Target,
+    pub(crate) replicate: u32,
 }
 
 /// Traces paths of a target; returns how many rays they took.
-pub(super) fn trace<S: Spectrum>(
+pub(crate) fn trace<S: Spectrum>(
     context: &Context<'_, S>,
-    suns: &Suns,
+    search: DaylightSearch<'_>,
     of: TargetReplicate<'_>,
     indices: Range<u64>,
     wave: &mut PathWave<S>,
     mut take: impl FnMut(FromOutside),
 ) -> u64 {
     let TargetReplicate { number, target, replicate } = of;
-    let points = context.points(replicate, Stream::Paths(number as u64));
+    let stream = if search.only_from_beyond { Stream::DaylightPaths } else { Stream::Paths };
+    let points = context.points(replicate, stream(number as u64));
     let start = |index: u64| {
         let mut sampler = Sampler::new(&points, index);
         let (position, n) = match target {
@@ -55,7 +50,7 @@ pub(super) fn trace<S: Spectrum>(
             virtual_lights: None,
             pixel: None,
             light_subpath: None,
-            suns: Some(suns),
+            daylight: Some(search),
             sampler,
         }
     };
@@ -68,27 +63,4 @@ pub(super) fn trace<S: Spectrum>(
         }
     }
     wave.take_rays()
-}
-
-/// Where the sun shines, found out by paths of a replicate that counts nowhere, from targets all over
-/// the scene.
-pub(super) fn sun_ways<S: Spectrum>(
-    context: &Context<'_, S>,
-    suns: &Suns,
-    replicate: u32,
-    targets: &[Target],
-) -> SunWays {
-    let step = targets.len().div_ceil(PILOT_POINTS).max(1);
-    let pilots: Vec<usize> = (step / 2..targets.len()).step_by(step).collect();
-    let look = |number: usize| {
-        let of = TargetReplicate { number, target: &targets[number], replicate };
-        let mut ways = SunWays::default();
-        trace(context, suns, of, 0..PILOT_PATHS, &mut PathWave::default(), |found| {
-            if let Whence::Sun(_, place) = found.whence {
-                ways.note(place, found.light > 0.0);
-            }
-        });
-        ways
-    };
-    pilots.into_par_iter().map(look).reduce(SunWays::default, SunWays::merge)
 }

@@ -1,0 +1,146 @@
+//! The components of daylight at a sensor point: from the sky alone, externally reflected,
+//! internally reflected (CIE 16:1970).
+//!
+//! Light counts by where it was reflected last: nowhere, beyond an opening, or on this side of it.
+//! Sheets that light passes, clear or diffusing, reflect nothing to their other side, and the
+//! ground is beyond all openings. Paths that come to a surface within have nothing more to find,
+//! so that the first two components take little work; the third is what remains of the
+//! illuminance.
+
+use crate::context::Context;
+use crate::lights::Suns;
+use crate::path::daylight::{DaylightSearch, FromOutside, LastReflection, Whence};
+use crate::path::daylight_paths::{TargetReplicate, trace};
+use crate::path::wave::PathWave;
+use crate::prepared::PreparedScene;
+use crate::settings::{EstimatorKind, Settings};
+use crate::spectrum::{Spectrum, is_grey};
+use crate::stats::interval::{Interval, t_quantile_for};
+use crate::stats::targets::{Target, targets};
+use quasilux_scene::Rgb;
+use rayon::prelude::*;
+use std::ops::Range;
+
+/// Paths of each replicate at first, and at most where nobody says.
+const FIRST: u64 = 256;
+const MOST: u64 = 1 << 16;
+/// A component may take this share of the tolerance of the illuminance.
+const SHARE_OF_TOLERANCE: f64 = 0.5;
+
+/// What is known of the light at a sensor point beside its illuminance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DaylightComponents {
+    /// From the sky, in lx.
+    pub sky_lx: Interval,
+    /// From surfaces and ground beyond the openings, in lx.
+    pub externally_reflected_lx: Interval,
+}
+
+/// The components at all sensor points, sensor by sensor, of illuminances in lx to whose tolerance
+/// they are to be known. `None` where the sky does not shine alone, and where there are no openings
+/// that make an inside.
+///
+/// The result is a function of scene, settings and illuminances. Runs in the rayon pool that the
+/// call is made in.
+#[must_use]
+pub fn daylight_components<'a>(
+    scene: impl Into<PreparedScene<'a>>,
+    settings: &Settings,
+    illuminances_lx: &[f64],
+) -> Option<Vec<DaylightComponents>> {
+    let prepared = scene.into();
+    let scene = prepared.scene();
+    let environment = scene.environment.as_ref()?;
+    if !scene.lights.is_empty() || environment.sun.is_some() {
+        return None;
+    }
+    let settings = &Settings { estimator: EstimatorKind::Path, ..settings.clone() };
+    let wanted = Wanted { targets: &targets(scene), settings, illuminances_lx };
+    if is_grey(scene) {
+        of_points(&Context::<f64>::new(prepared, settings), wanted)
+    } else {
+        of_points(&Context::<Rgb>::new(prepared, settings), wanted)
+    }
+}
+
+#[derive(Clone, Copy)]
+struct Wanted<'w> {
+    targets: &'w [Target],
+    settings: &'w Settings,
+    /// By target.
+    illuminances_lx: &'w [f64],
+}
+
+fn of_points<S: Spectrum>(
+    context: &Context<'_, S>,
+    wanted: Wanted<'_>,
+) -> Option<Vec<DaylightComponents>> {
+    let Wanted { targets, settings, illuminances_lx } = wanted;
+    context.lights.outside.as_ref().filter(|outside| outside.has_portals())?;
+    let point = |(number, target)| {
+        let of = |replicate| TargetReplicate { number, target, replicate };
+        let known_lx = illuminances_lx.get(number).copied().unwrap_or_default();
+        let mut sums = vec![[0.0; 2]; settings.effective_replicates() as usize];
+        let mut wave = PathWave::default();
+        let mut paths = 0;
+        loop {
+            let goal = (2 * paths).max(FIRST).min(limit(settings));
+            for (replicate, sums) in (0..).zip(&mut sums) {
+                add(context, of(replicate), paths..goal, &mut wave, sums);
+            }
+            paths = goal;
+            let found = components(settings, &sums, paths);
+            if paths == limit(settings) || found.are_known(settings, known_lx) {
+                return found;
+            }
+        }
+    };
+    Some(targets.par_iter().enumerate().map(point).collect())
+}
+
+/// Most paths of a point in a replicate.
+fn limit(settings: &Settings) -> u64 {
+    settings.max_samples.unwrap_or(MOST)
+}
+
+/// Traces paths of a point in one replicate.
+fn add<S: Spectrum>(
+    context: &Context<'_, S>,
+    of: TargetReplicate<'_>,
+    paths: Range<u64>,
+    wave: &mut PathWave<S>,
+    [sky, externally]: &mut [f64; 2],
+) {
+    let search = DaylightSearch { suns: &Suns::default(), only_from_beyond: true };
+    trace(context, search, of, paths, wave, |FromOutside { whence, reflection, light }| {
+        let is_ground = match whence {
+            Whence::Outside(direction) | Whence::Mirrored(direction) => direction.z < 0.0,
+            Whence::Sun(..) => false,
+        };
+        match reflection {
+            _ if !light.is_finite() => {}
+            LastReflection::Nowhere if !is_ground => *sky += light,
+            LastReflection::Nowhere | LastReflection::Beyond => *externally += light,
+            LastReflection::Within => {}
+        }
+    });
+}
+
+fn components(settings: &Settings, sums: &[[f64; 2]], paths: u64) -> DaylightComponents {
+    let t = t_quantile_for(sums.len(), 1.0 - settings.confidence);
+    let [sky_lx, externally_reflected_lx] =
+        [0, 1].map(|k| Interval::of_mean(sums.iter().map(|sums| sums[k] / paths as f64), t));
+    DaylightComponents { sky_lx, externally_reflected_lx }
+}
+
+impl DaylightComponents {
+    /// Whether both are known well enough beside an illuminance in lx. Without a tolerance all
+    /// paths are traced.
+    fn are_known(&self, settings: &Settings, illuminance_lx: f64) -> bool {
+        let enough_lx = SHARE_OF_TOLERANCE * settings.tolerance_lx(illuminance_lx);
+        let is_known =
+            |it: Interval| it.half_width.is_some_and(|half_width| half_width <= enough_lx);
+        settings.has_tolerance()
+            && [self.sky_lx, self.externally_reflected_lx].into_iter().all(is_known)
+    }
+}
