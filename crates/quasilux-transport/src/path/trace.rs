@@ -296,11 +296,8 @@ impl<'p, S: Spectrum> Path<'p, S> {
         let Some(at) = at else { return false };
         self.note_openings(context, at);
         let surface = &Surface::new(&context.world, at, self.direction);
-        if !self.may_count(surface.bsdf) {
-            return false;
-        }
         let &Surface { bsdf, wo, .. } = surface;
-        if !self.takes_from_virtual_lights(bsdf, at) {
+        if !self.may_count(bsdf) || !self.takes_from_virtual_lights(bsdf, at) {
             return false;
         }
         let carried = self.carried(bsdf);

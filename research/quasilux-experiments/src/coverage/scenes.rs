@@ -3,10 +3,12 @@
 //! In each of them every point has noise: what is computed without sampling has no interval to
 //! test.
 
+use super::wall_in_the_sun;
 use crate::building::{add_material, add_quad, grey, lamp, points, room, shine};
 use glam::DVec3;
 use quasilux_scene::bsdf::{Diffuse, Mirror};
 use quasilux_scene::{Bsdf, Grid, Quantity, Rgb, Scene, Sensor, SensorShape};
+use quasilux_sky::WeatherSky;
 use quasilux_transport::EstimatorKind;
 use std::f64::consts::PI;
 
@@ -16,6 +18,9 @@ pub(super) struct KnownScene {
     /// Why the values are known.
     pub(super) why: &'static str,
     pub(super) scene: Scene,
+    /// Hours that are simulated as of a year; none for a run of its own.
+    pub(super) hours: Vec<WeatherSky>,
+    /// Point by point, of each its hours.
     pub(super) truth_lx: Vec<f64>,
     pub(super) estimator: EstimatorKind,
     /// Reached after a few checkpoints, with points of each kind in the order of
@@ -35,7 +40,17 @@ const WALLS: f64 = 0.5;
 
 /// The scenes.
 pub(super) fn all() -> Vec<KnownScene> {
-    vec![furnace(), coloured_furnace(), panel(), mirror(), cube(), walls(), unequal()]
+    vec![
+        furnace(),
+        coloured_furnace(),
+        panel(),
+        mirror(),
+        cube(),
+        walls(),
+        unequal(),
+        wall_in_the_sun::moment(),
+        wall_in_the_sun::year(),
+    ]
 }
 
 /// Walls of reflectance a that all have the luminance L give pi L / (1 - a) everywhere.
@@ -68,6 +83,7 @@ fn furnace_with(reflectance: Rgb) -> KnownScene {
         name: "coloured furnace",
         why: "the same for each colour",
         scene,
+        hours: Vec::new(),
         truth_lx: vec![lx; places.len()],
         estimator: EstimatorKind::Path,
         rel_tol: [0.007, 0.007],
@@ -79,12 +95,13 @@ fn panel() -> KnownScene {
     let mut scene = Scene::default();
     let corners = add_panel(&mut scene);
     let places = add_places(&mut scene, [[0.5, 0.5], [1.1, 0.2], [0.1, 1.3], [1.5, 1.2]]);
-    let truth_lx = places.iter().map(|&(at, n)| polygon_lx(at, n, &corners)).collect();
+    let truth_lx = places.iter().map(|&(at, n)| panel_lx(at, n, &corners)).collect();
     let why = "the contour integral of Lambert (1760)";
     KnownScene {
         name: "panel",
         why,
         scene,
+        hours: Vec::new(),
         truth_lx,
         estimator: EstimatorKind::Path,
         rel_tol: [0.007, 0.01],
@@ -102,13 +119,14 @@ fn mirror() -> KnownScene {
     let places = add_places(&mut scene, [[-0.3, 0.5], [0.2, 0.2], [0.1, 1.3], [-0.2, 1.1]]);
     let truth_lx = places
         .iter()
-        .map(|&(at, n)| polygon_lx(at, n, &corners) + MIRROR * polygon_lx(at, n, &image))
+        .map(|&(at, n)| panel_lx(at, n, &corners) + MIRROR * panel_lx(at, n, &image))
         .collect();
     let why = "the contour integral for the panel and its image";
     KnownScene {
         name: "mirror",
         why,
         scene,
+        hours: Vec::new(),
         truth_lx,
         estimator: EstimatorKind::Path,
         rel_tol: [0.04, 0.04],
@@ -127,12 +145,21 @@ fn unequal() -> KnownScene {
     let beside = [[-0.06, 0.5, 0.3], [-0.04, 0.5, 0.3]].map(up);
     let above = [[1.025, 0.3, 0.8], [1.056, 0.5, 0.8]].map(up);
     scene.sensors.push(points(&[beside, above].concat()));
-    let direct_lx = |(at, n)| polygon_lx(at, n, &corners);
-    let with_image_lx = |(at, n)| polygon_lx(at, n, &corners) + MIRROR * polygon_lx(at, n, &image);
+    let direct_lx = |(at, n)| panel_lx(at, n, &corners);
+    let with_image_lx = |(at, n)| panel_lx(at, n, &corners) + MIRROR * panel_lx(at, n, &image);
     let truth_lx = [beside.map(with_image_lx), above.map(direct_lx)].concat();
     let why = "the contour integral, at two of four points for the image as well";
     let rel_tol = [0.02, 0.03];
-    KnownScene { name: "unequal", why, scene, truth_lx, estimator: EstimatorKind::Path, rel_tol }
+    let hours = Vec::new();
+    KnownScene {
+        name: "unequal",
+        why,
+        scene,
+        hours,
+        truth_lx,
+        estimator: EstimatorKind::Path,
+        rel_tol,
+    }
 }
 
 /// The diffuse cube of Voloboy, Dmitriev and Kopylov (2003), at three places of a wall whose
@@ -149,6 +176,7 @@ fn cube() -> KnownScene {
         name: "cube",
         why,
         scene,
+        hours: Vec::new(),
         truth_lx,
         estimator: EstimatorKind::Bidirectional,
         rel_tol: [0.0025, 0.005],
@@ -169,24 +197,29 @@ fn walls() -> KnownScene {
         name: "walls",
         why,
         scene,
+        hours: Vec::new(),
         truth_lx,
         estimator: EstimatorKind::Photon,
         rel_tol: [0.065, 0.09],
     }
 }
 
-/// What a polygon with the luminance of all lights gives to a place that sees all of it from above
-/// its horizon (J. H. Lambert, Photometria, 1760): half the luminance times the sum over edges of
+/// What a polygon of one luminance gives to a place that sees all of it from above its horizon (J. H. Lambert, Photometria, 1760): half the luminance times the sum over edges of
 /// the angle that an edge subtends times the cosine of its plane's normal. Corners run
 /// counter-clockwise as the place sees them.
-fn polygon_lx(at: DVec3, n: DVec3, corners: &[DVec3]) -> f64 {
+pub(super) fn polygon_lx(at: DVec3, n: DVec3, corners: &[DVec3], luminance_cd_m2: f64) -> f64 {
     let edges = corners.iter().zip(corners.iter().cycle().skip(1));
     let edge = |(a, b): (&DVec3, &DVec3)| {
         let (a, b) = ((*a - at).normalize(), (*b - at).normalize());
         let normal = a.cross(b);
         libm::acos(a.dot(b).clamp(-1.0, 1.0)) * n.dot(normal) / normal.length()
     };
-    (0.5 * LUMINANCE_CD_M2 * edges.map(edge).sum::<f64>()).abs()
+    (0.5 * luminance_cd_m2 * edges.map(edge).sum::<f64>()).abs()
+}
+
+/// The same of a polygon that shines as all lights do.
+fn panel_lx(at: DVec3, n: DVec3, corners: &[DVec3]) -> f64 {
+    polygon_lx(at, n, corners, LUMINANCE_CD_M2)
 }
 
 /// The panel's corners.
@@ -237,7 +270,7 @@ mod tests {
         let corners = corners.map(|[x, y]| DVec3::new(x, y, 1.0));
         let root = std::f64::consts::FRAC_1_SQRT_2;
         let factor = 4.0 / PI * root * libm::atan(root);
-        let got = polygon_lx(DVec3::ZERO, DVec3::Z, &corners);
+        let got = panel_lx(DVec3::ZERO, DVec3::Z, &corners);
         assert!((got / (PI * LUMINANCE_CD_M2 * factor) - 1.0).abs() < 1e-12, "{got}");
     }
 }

@@ -2,7 +2,14 @@
 
 use super::count::{Figure, Moment};
 use super::scenes::KnownScene;
-use quasilux_transport::{Control, Estimates, Interval, Observer, Settings, simulate};
+use quasilux_transport::interval::t_quantile_for;
+use quasilux_transport::{
+    Control, Estimates, Interval, Observer, PointOfYear, Settings, YearHours, simulate,
+    simulate_year,
+};
+
+/// Paths at the first look at hours.
+const FIRST_OF_HOURS: u64 = 128;
 
 /// Errors over half-widths of all figures, in the order of [`Figure::all`].
 pub(super) struct Trial {
@@ -30,6 +37,11 @@ impl Observer for First {
 
 impl Trial {
     pub(super) fn run(known: &KnownScene, settings: &Settings) -> Self {
+        if !known.hours.is_empty() {
+            let first =
+                Settings { rel_tol: 0.0, max_samples: Some(FIRST_OF_HOURS), ..settings.clone() };
+            return Self { fixed: hours(known, &first), stop: hours(known, settings) };
+        }
         let mut first = First::default();
         let stopped = simulate(&known.scene, settings, &mut first);
         let end = |mut estimates: Estimates, moment: Moment| {
@@ -68,17 +80,54 @@ fn samples(estimates: &Estimates) -> Vec<u64> {
 }
 
 fn errors(known: &KnownScene, estimates: &Estimates) -> Vec<f64> {
+    let points = estimates.point_intervals(0);
+    errors_of(known, points, [estimates.average(0), estimates.minimum(0)])
+}
+
+/// Of points, average and minimum.
+fn errors_of(known: &KnownScene, points: Vec<Interval>, all: [Interval; 2]) -> Vec<f64> {
     let truth_lx = &known.truth_lx;
     let average_lx = truth_lx.iter().sum::<f64>() / truth_lx.len() as f64;
     let minimum_lx = truth_lx.iter().copied().fold(f64::INFINITY, f64::min);
-    let error = |interval: Interval, truth_lx: f64| {
+    let truth_lx = truth_lx.iter().copied().chain([average_lx, minimum_lx]);
+    let error = |(interval, truth_lx): (Interval, f64)| {
         let half_width = interval.half_width.unwrap_or(f64::NAN);
         (interval.value - truth_lx).abs() / half_width
     };
-    let points = estimates.point_intervals(0);
-    let of_points =
-        points.into_iter().zip(truth_lx).map(|(point, truth_lx)| error(point, *truth_lx));
-    of_points
-        .chain([error(estimates.average(0), average_lx), error(estimates.minimum(0), minimum_lx)])
-        .collect()
+    points.into_iter().chain(all).zip(truth_lx).map(error).collect()
+}
+
+/// A run over hours: each of a point is a point, and the least of them, far below the others, the
+/// minimum.
+fn hours(known: &KnownScene, settings: &Settings) -> End {
+    let year = YearHours { skies: &known.hours, closed: None };
+    let mut points: Vec<PointOfYear> = Vec::new();
+    let mut go_on = |_| Control::Continue;
+    simulate_year(&known.scene, year, settings, &mut go_on, |it| it, |it| points.push(it));
+    let t = t_quantile_for(settings.replicates as usize, 1.0 - settings.confidence);
+    let interval = |values: Vec<f64>| {
+        let n = values.len() as f64;
+        let value = values.iter().sum::<f64>() / n;
+        let squares: f64 = values.iter().map(|x| (x - value) * (x - value)).sum();
+        Interval { value, half_width: t.map(|t| t * (squares / (n * (n - 1.0))).sqrt()) }
+    };
+    let hours = known.hours.len();
+    let of_hour = |point: &PointOfYear, hour: usize| {
+        interval(point.illuminance_lx.iter().map(|lx| f64::from(lx[hour])).collect())
+    };
+    let all: Vec<Interval> =
+        points.iter().flat_map(|it| (0..hours).map(|hour| of_hour(it, hour))).collect();
+    let mean = |replicate: usize| {
+        let values = points.iter().flat_map(|point| &point.illuminance_lx[replicate]);
+        values.map(|lx| f64::from(*lx)).sum::<f64>() / all.len() as f64
+    };
+    let average = interval((0..settings.replicates as usize).map(mean).collect());
+    let least = all.iter().copied().min_by(|a, b| a.value.total_cmp(&b.value));
+    let least = least.expect("a scene with hours has points");
+    let most = points.iter().map(|point| point.samples).max().unwrap_or_default();
+    let samples = points.iter().flat_map(|point| vec![point.samples; hours]);
+    End {
+        samples: samples.chain([most; 2]).collect(),
+        errors: errors_of(known, all, [average, least]),
+    }
 }
