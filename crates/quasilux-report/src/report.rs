@@ -185,12 +185,7 @@ impl Report {
         let outside = Outside::new(scene);
         let mut sensors: Vec<SensorReport> =
             (0..scene.sensors.len()).map(|s| SensorReport::new(scene, estimates, s)).collect();
-        let points = sensors.iter_mut().flat_map(|sensor| &mut sensor.points);
-        for (number, point) in points.enumerate() {
-            let components = facts.daylight.as_ref().and_then(|daylight| daylight.get(number));
-            point.daylight_factor = outside
-                .and_then(|outside| outside.daylight_factor(point.illuminance_lx, components));
-        }
+        add_daylight_factors(&mut sensors, outside, facts.daylight.as_deref());
         assert_eq!(scene.cameras.len(), estimates.cameras.len(), "estimates of another scene");
         let cameras =
             (0..scene.cameras.len()).map(|c| CameraReport::new(scene, estimates, c)).collect();
@@ -236,6 +231,20 @@ impl Report {
             findings: facts.findings,
             warnings,
         }
+    }
+}
+
+/// Says at all points what share of the light outside they get, where only the sky shines.
+fn add_daylight_factors(
+    sensors: &mut [SensorReport],
+    outside: Option<Outside>,
+    components: Option<&[DaylightComponents]>,
+) {
+    let Some(outside) = outside else { return };
+    let points = sensors.iter_mut().flat_map(|sensor| &mut sensor.points);
+    for (number, point) in points.enumerate() {
+        let components = components.and_then(|components| components.get(number));
+        point.daylight_factor = outside.daylight_factor(point.illuminance_lx, components);
     }
 }
 

@@ -50,7 +50,8 @@ mod stats;
 mod world;
 
 pub use annual::{
-    ClosedHours, PointOfYear, YearHours, YearProgress, YearWork, simulate_year, sunlit_points,
+    ClosedHours, PointOfYear, YearHours, YearProgress, YearWork, seen_suns, simulate_year,
+    sunlit_points,
 };
 pub use bsdf::Scattering;
 pub use codec::StateError;

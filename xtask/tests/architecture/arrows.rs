@@ -52,6 +52,7 @@ const MAY_USE: [(&str, &[&str]); 16] = [
             "quasilux-bvh",
             "quasilux-bsdf",
             "quasilux-photometry",
+            "quasilux-sky",
         ],
     ),
     (

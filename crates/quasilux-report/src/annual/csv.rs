@@ -1,15 +1,15 @@
 //! Spreadsheets of a year: the points of a sensor, and the hours.
 
 use super::measures::Measure;
-use super::point::PointSummary;
-use super::report::AnnualReport;
+use super::report::{AnnualReport, SensorPoints};
+use super::sun_hours::SunHours;
 use crate::number::exact;
-use quasilux_scene::Sensor;
 
-/// The points of a sensor, a line each: where they are, each measure with its half-width, and the
-/// occupied hours with and without enough light.
+/// The points of a sensor, a line each: where they are, each measure with its half-width, the
+/// occupied hours with and without enough light, and how long the sun shines there.
 #[must_use]
-pub fn annual_csv(sensor: &Sensor, points: &[PointSummary]) -> String {
+pub fn annual_csv(of: SensorPoints<'_>) -> String {
+    let SensorPoints { sensor, points, sun_hours, .. } = of;
     let mut columns: Vec<String> =
         ["x_m", "y_m", "z_m", "nx", "ny", "nz"].map(str::to_owned).to_vec();
     for measure in Measure::ALL {
@@ -17,8 +17,10 @@ pub fn annual_csv(sensor: &Sensor, points: &[PointSummary]) -> String {
     }
     let counts = ["hours_surely_above", "hours_surely_below", "hours_undecided", "samples"];
     columns.extend(counts.map(str::to_owned));
+    let of_sun = sun_hours.first().map(SunHours::columns);
+    columns.extend(of_sun.into_iter().flatten().map(|(name, _)| name.to_owned()));
     let mut text = columns.join(",") + "\n";
-    for (place, point) in sensor.points().iter().zip(points) {
+    for (number, (place, point)) in sensor.points().iter().zip(points).enumerate() {
         let place = place.position.to_array().into_iter().chain(place.normal.to_array());
         let mut fields: Vec<String> = place.map(exact).collect();
         let figures = point.measures.iter().flat_map(|it| [it.value, it.half_width]);
@@ -26,6 +28,8 @@ pub fn annual_csv(sensor: &Sensor, points: &[PointSummary]) -> String {
         let hours = point.hours;
         fields.extend([hours.above, hours.below, hours.undecided].map(|hours| hours.to_string()));
         fields.push(point.samples.to_string());
+        let of_sun = sun_hours.get(number).map(SunHours::columns);
+        fields.extend(of_sun.into_iter().flatten().map(|(_, hours)| exact(hours)));
         text += &(fields.join(",") + "\n");
     }
     text

@@ -10,6 +10,7 @@ use super::measures::Measure;
 use super::point::PointSummary;
 use super::report::{AnnualReport, AnnualRun, SensorPoints};
 use super::sensor::{SensorOfYear, ShareOfPoints};
+use super::sun_hours::SunHours;
 use crate::json::text;
 use serde::Serialize;
 use serde_json::{Map, Value, json};
@@ -47,13 +48,16 @@ pub fn annual_json(report: &AnnualReport<'_>) -> String {
     let run = &report.run;
     let calendar = report.calendar;
     let sensors = report.sensors().zip(report.summaries()).map(|(of, summary)| {
-        let SensorPoints { sensor, points } = of;
+        let SensorPoints { sensor, points, sun_hours, .. } = of;
         let places = sensor.points();
-        let points = places.iter().zip(points).map(|(place, point)| {
+        let points = places.iter().zip(points).enumerate().map(|(number, (place, point))| {
             let mut entry = Map::new();
             entry.insert("position".to_owned(), json!(place.position.to_array()));
             entry.insert("normal".to_owned(), json!(place.normal.to_array()));
             fill(&mut entry, point);
+            let of_sun = sun_hours.get(number).map(SunHours::columns);
+            let hours = of_sun.into_iter().flatten();
+            entry.extend(hours.map(|(name, hours)| (name.to_owned(), json!(hours))));
             entry
         });
         SensorEntry { name: &sensor.name, points: points.collect(), summary: summary_of(&summary) }

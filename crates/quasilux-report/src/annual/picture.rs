@@ -24,7 +24,7 @@ pub fn annual_maps<'a>(
     of: PictureOf<'a>,
 ) -> impl Iterator<Item = AnnualMap<'a>> {
     let lights = Lights::new(of.scene);
-    report.sensors().flat_map(move |SensorPoints { sensor, points }| {
+    report.sensors().flat_map(move |SensorPoints { sensor, points, .. }| {
         let SensorShape::Grid(grid) = &sensor.shape else { return Vec::new() };
         let map = |measure: Measure| {
             let Unit { name: unit, factor } = Unit::for_measure(measure);

@@ -2,9 +2,11 @@
 
 use super::calendar::{Calendar, Interval};
 use super::dimming::Dimming;
+use super::equinox::EquinoxSheets;
 use super::measures::Thresholds;
 use super::point::{PointOfHours, PointSummary};
 use super::sensor::SensorOfYear;
+use super::sun_hours::SunHours;
 use quasilux_scene::{Scene, Sensor};
 use quasilux_sky::{Site, Weather};
 use quasilux_transport::{Settings, YearWork};
@@ -36,6 +38,10 @@ pub struct SensorPoints<'a> {
     pub sensor: &'a Sensor,
     /// Its points.
     pub points: &'a [PointSummary],
+    /// How long the sun shines on them; empty where nobody looked.
+    pub sun_hours: &'a [SunHours],
+    /// The number of the first of them.
+    pub first: usize,
 }
 
 /// The results of a year.
@@ -59,6 +65,10 @@ pub struct AnnualReport<'a> {
     pub thresholds: Thresholds,
     /// All points, through all sensors.
     pub points: Vec<PointSummary>,
+    /// How long the sun shines on them, through all sensors, if anybody looked.
+    pub sun_hours: Vec<SunHours>,
+    /// What they get near the equinoxes.
+    pub equinox: EquinoxSheets,
     /// By sensor, the mean illuminance over its points in lx, interval by interval.
     pub mean_lx: Vec<Vec<f64>>,
     /// What it was made of.
@@ -71,8 +81,10 @@ impl<'a> AnnualReport<'a> {
         let mut first = 0;
         self.scene.sensors.iter().map(move |sensor| {
             let own = first..(first + sensor.len()).min(self.points.len());
+            let points = self.points.get(own.clone()).unwrap_or_default();
+            let sun_hours = self.sun_hours.get(own.clone()).unwrap_or_default();
             first += sensor.len();
-            SensorPoints { sensor, points: self.points.get(own).unwrap_or_default() }
+            SensorPoints { sensor, points, sun_hours, first: own.start }
         })
     }
 
@@ -114,6 +126,8 @@ impl<'a> AnnualReport<'a> {
             dimming: None,
             thresholds: Thresholds::default(),
             points: Vec::new(),
+            sun_hours: Vec::new(),
+            equinox: EquinoxSheets::begin(calendar),
             mean_lx: vec![vec![0.0; hours]; scene.sensors.len()],
             run,
         }
@@ -124,6 +138,7 @@ impl<'a> AnnualReport<'a> {
         if let Some(dimming) = &mut self.dimming {
             dimming.add(self.points.len(), &point.by_replicate);
         }
+        self.equinox.push(point);
         let mut number = self.points.len();
         for (sensor, mean_lx) in self.scene.sensors.iter().zip(&mut self.mean_lx) {
             if number < sensor.len() {

@@ -33,7 +33,7 @@ pub fn annual_table(report: &AnnualReport<'_>) -> String {
         write!(text, "; blinds closed in {closed} of the occupied").expect("strings grow");
     }
     text.push_str("\n\n");
-    for (SensorPoints { sensor, points }, summary) in report.sensors().zip(report.summaries()) {
+    for (SensorPoints { sensor, points, .. }, summary) in report.sensors().zip(report.summaries()) {
         write_sensor(&mut text, &sensor.name, points, &summary);
     }
     if let Some(dimming) = &report.dimming {

@@ -2,21 +2,24 @@
 
 use super::*;
 use crate::Figure;
+use crate::number::exact;
 use glam::DVec3;
 use quasilux_scene::{
-    Blinds, BlindsControl, ElectricLight, Scene, Sensor, SensorPoint, SensorShape,
+    Blinds, BlindsControl, ElectricLight, Environment, Scene, Sensor, SensorPoint, SensorShape,
 };
-use quasilux_sky::Weather;
+use quasilux_sky::{Distribution, Site, Sky, SkyLevel, Weather};
 use quasilux_transport::interval::t_quantile_for;
 use quasilux_transport::{PointOfYear, Settings};
 
-/// Two days, of which one hour is unknown: in EPW lines of month, day, hour, direct and diffuse.
-fn calendar() -> Calendar {
-    let header = "LOCATION,Nowhere,-,DEU,made up,000000,52.5,13.4,1.0,34.0\n\
+/// The head of an EPW file.
+const HEAD: &str = "LOCATION,Nowhere,-,DEU,made up,000000,52.5,13.4,1.0,34.0\n\
         DESIGN CONDITIONS,0\nTYPICAL/EXTREME PERIODS,0\nGROUND TEMPERATURES,0\n\
         HOLIDAYS/DAYLIGHT SAVINGS,No,0,0,0\nCOMMENTS 1,made up\nCOMMENTS 2,\n\
         DATA PERIODS,1,1,Data,Sunday, 1/ 1,12/31\n";
-    let mut text = header.to_owned();
+
+/// Two days, of which one hour is unknown: in EPW lines of month, day, hour, direct and diffuse.
+fn calendar() -> Calendar {
+    let mut text = HEAD.to_owned();
     for day in 20..22 {
         for hour in 1..=24 {
             let light = match (day, hour) {
@@ -185,4 +188,56 @@ fn schedules_close_blinds() {
     let blinds = Blinds { closed: Scene::default(), control };
     let closed = closed_hours(&blinds, &Scene::default(), &calendar, &Settings::default());
     assert_eq!(closed, [true, false, true]);
+}
+
+/// Under the open sky all that the calendar has is seen, and on the equinox half of a day.
+#[test]
+fn open_points_are_in_the_sun_all_day() {
+    let calendar = calendar();
+    let site = Site::new(52.5, 13.4, 1.0).unwrap();
+    let mut scene = scene_of_points(1);
+    let sky = Sky::new(Distribution::uniform(), SkyLevel::ZenithLuminance { cd_m2: 1.0 }).unwrap();
+    let openings = Vec::new();
+    scene.environment =
+        Some(Environment { sky, sun: None, ground_reflectance: 0.2, north_deg: 0.0, openings });
+    let found = sun_hours(&scene, &calendar, &site, &Settings::default()).unwrap();
+    let [SunHours { sunlit_h, clear_sky_sunlit_h, equinox_sunlit_h }] = found[..] else {
+        panic!("one point: {found:?}")
+    };
+    let up = calendar.skies.iter().filter(|sky| sky.sun.altitude_deg > 0.0);
+    assert_eq!(clear_sky_sunlit_h, up.clone().count() as f64);
+    let bright = up.filter(|sky| sky.sun_normal_illuminance_lx > 12_000.0);
+    assert_eq!(sunlit_h, bright.count() as f64);
+    assert!(sunlit_h >= 1.0 && (equinox_sunlit_h - 12.0).abs() < 0.2, "{found:?}");
+}
+
+/// The sheets are of the clear day within a fortnight of the equinox, not of a brighter one later.
+#[test]
+fn sheets_of_the_equinox_are_of_the_clearest_day() {
+    let mut text = HEAD.to_owned();
+    for (month, day, direct) in [(3, 10, 200), (3, 25, 700), (4, 20, 900), (9, 20, 0)] {
+        for hour in 1..=24 {
+            let direct = if (8..=17).contains(&hour) { direct } else { 0 };
+            let before = "?9?9,9.0,7.0,87,102000,0,0,305,0";
+            text += &format!("2026,{month},{day},{hour},0,{before},{direct},90,0,0\n");
+        }
+    }
+    let weather = Weather::parse(text.as_bytes()).unwrap().weather;
+    let calendar = Calendar::new(&weather, &(8.0..18.0)).unwrap();
+    let mut sheets = EquinoxSheets::begin(&calendar);
+    let hours = calendar.skies.len();
+    let lx: Vec<f32> = (0..hours).map(|hour| hour as f32).collect();
+    let of_year =
+        PointOfYear { sun_lx: vec![vec![0.0; hours]; 2], ..point(vec![lx.clone(), lx], [0.0; 3]) };
+    let hours = PointOfHours::new(of_year, &calendar, &Thresholds::default(), 0.95);
+    sheets.push(&hours);
+    let text = sheets.csv(&scene_of_points(1).sensors[0], 0, &calendar).unwrap();
+    let [head, line] = [0, 1].map(|n| text.lines().nth(n).unwrap());
+    assert_eq!(head.split(',').count(), 6 + 2 * 6);
+    assert!(head.contains(",03-25T09:30_lx,03-25T09:30_half_width_lx,"), "{head}");
+    assert!(head.ends_with(",03-25T14:30_half_width_lx"), "{head}");
+    let noon = calendar.intervals.iter().find(|it| (it.month, it.middle_h) == (3, 9.5));
+    assert!(noon.is_some() && line.starts_with("0.0,0.0,0.0,0.0,0.0,1.0,"), "{line}");
+    let first = calendar.intervals[24 + 9].sky.unwrap();
+    assert_eq!(line.split(',').nth(6), Some(exact(first as f64).as_str()), "{line}");
 }

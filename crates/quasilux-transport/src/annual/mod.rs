@@ -22,5 +22,5 @@ mod sunlit;
 mod year;
 
 pub use results::{PointOfYear, YearProgress, YearWork};
-pub use sunlit::sunlit_points;
+pub use sunlit::{seen_suns, sunlit_points};
 pub use year::{ClosedHours, YearHours, simulate_year};

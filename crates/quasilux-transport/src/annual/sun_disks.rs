@@ -202,7 +202,7 @@ impl ShiningSun {
 }
 
 /// Asks for a share of the light along a direction.
-fn ask<S: Spectrum>(
+pub(super) fn ask<S: Spectrum>(
     context: &Context<'_, S>,
     queue: &mut ShadowQueue<S>,
     who: u32,

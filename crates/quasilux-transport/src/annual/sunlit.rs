@@ -1,12 +1,15 @@
-//! How many points the sun shines on, hour by hour: what blinds are closed by.
+//! Which points the sun shines on: how many, hour by hour, is what blinds are closed by.
 
-use super::sun_disks::{ShiningSun, SunDisks};
+use super::sun_disks::{ShiningSun, SunDisks, ask};
 use super::year::lit;
 use crate::context::Context;
 use crate::settings::Settings;
 use crate::stats::targets::targets;
-use quasilux_scene::{Rgb, Scene};
-use quasilux_sky::WeatherSky;
+use crate::world::vertex::Vertex;
+use crate::world::visibility::{Answer, ShadowQueue};
+use glam::DVec3;
+use quasilux_scene::{Rgb, Scene, Sensor, SensorPoint};
+use quasilux_sky::{SkyPoint, WeatherSky};
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -41,4 +44,36 @@ pub fn sunlit_points(
         all
     };
     own.fold(none, count).reduce(none, add)
+}
+
+/// What each sensor point, in their order, makes of which of these places of the sun it sees the
+/// centre of: past surfaces and through clear panes.
+///
+/// One ray to each says it. Runs in the rayon pool that the call is made in.
+#[must_use]
+pub fn seen_suns<T: Send>(
+    scene: &Scene,
+    suns: &[SkyPoint],
+    settings: &Settings,
+    digest: impl Fn(&[bool]) -> T + Sync,
+) -> Vec<T> {
+    let Some(environment) = &scene.environment else { return Vec::new() };
+    let lit = lit(scene, environment);
+    let context = Context::<Rgb>::new(&lit, settings);
+    let directions: Vec<DVec3> = suns.iter().map(|sun| environment.towards(*sun)).collect();
+    let points: Vec<SensorPoint> = scene.sensors.iter().flat_map(Sensor::points).collect();
+    let look = |SensorPoint { position, normal }: &SensorPoint| {
+        let from = context.world.ray_origin_of_sensor(*position, *normal);
+        let vertex = Vertex::sensor(from, *normal);
+        let mut queue = ShadowQueue::default();
+        for (sun, direction) in (0..).zip(&directions) {
+            ask(&context, &mut queue, sun, &vertex, *direction, normal.dot(*direction));
+        }
+        let mut is_seen = vec![false; suns.len()];
+        queue.answer_all(&context.world, |Answer { who, bounces, .. }: Answer<Rgb>| {
+            is_seen[who as usize] = bounces.is_some();
+        });
+        digest(&is_seen)
+    };
+    points.par_iter().map(look).collect()
 }

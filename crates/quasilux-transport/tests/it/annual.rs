@@ -12,8 +12,8 @@ use quasilux_sky::{
 use quasilux_transport::interval::t_quantile_for;
 use quasilux_transport::settings::Settings;
 use quasilux_transport::{
-    ClosedHours, Control, EstimatorKind, PointOfYear, YearHours, simulate, simulate_year,
-    sunlit_points,
+    ClosedHours, Control, EstimatorKind, PointOfYear, YearHours, seen_suns, simulate,
+    simulate_year, sunlit_points,
 };
 
 /// Skies and suns at random, clear and overcast, low and high.
@@ -253,4 +253,29 @@ fn points_in_the_sun_are_counted() {
         }
     }
     assert!(sunlit > 5, "{sunlit}");
+}
+
+/// Places of the sun are seen by points that see their centres through the window.
+#[test]
+fn suns_are_seen_through_the_window() {
+    let mut numbers = Numbers(19);
+    let mut seen_in_all = 0;
+    for _ in 0..6 {
+        let Room { mut scene, window } = room_with_window(&mut numbers, 0.6);
+        let suns: Vec<SkyPoint> = hours(&mut numbers, 200).iter().map(|hour| hour.sun).collect();
+        let environment = environment(&mut numbers, window);
+        scene.environment = Some(environment.clone());
+        let found = seen_suns(&scene, &suns, &Settings::default(), <[bool]>::to_vec);
+        for (place, found) in scene.sensors[0].points().iter().zip(found) {
+            for (sun, is_seen) in suns.iter().zip(found) {
+                let towards = environment.towards(*sun);
+                let share = seen_of_sun(&window, place.position, towards);
+                let faces = place.normal.dot(towards) > 0.0;
+                let is_edge = share > 0.0 && share < 1.0;
+                assert!(is_edge || is_seen == (share == 1.0 && faces), "{share}");
+                seen_in_all += usize::from(is_seen);
+            }
+        }
+    }
+    assert!(seen_in_all > 20, "{seen_in_all}");
 }

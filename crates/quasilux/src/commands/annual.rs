@@ -13,8 +13,8 @@ use crate::project::{self, Project};
 use crate::{interrupt, results};
 use quasilux_report::PictureOf;
 use quasilux_report::annual::{
-    AnnualReport, AnnualRun, Calendar, Dimming, PointOfHours, SensorPoints, Thresholds, annual_csv,
-    annual_json, annual_maps, annual_table, closed_hours, hours_csv, hours_png,
+    AnnualReport, AnnualRun, Calendar, Dimming, PointOfHours, Thresholds, annual_csv, annual_json,
+    annual_maps, annual_table, closed_hours, hours_csv, hours_png, sun_hours,
 };
 use quasilux_scene::Blinds;
 use quasilux_sky::Weather;
@@ -58,6 +58,8 @@ pub(crate) fn annual(arguments: &AnnualArguments) -> Result<Exit, CliError> {
     let begin = Instant::now();
     let blinds = project.loaded.blinds.as_ref();
     let pool = pool(threads)?;
+    let sun = pool.install(|| sun_hours(scene, &calendar, &report.site, &report.run.settings));
+    report.sun_hours = sun.map_err(CliError::new)?;
     results::stream_atomic(&folder.join(HOURS_FILE), |file| {
         pool.install(|| simulate(&mut report, blinds, file))
     })?;
@@ -135,9 +137,12 @@ fn write(report: &AnnualReport<'_>, folder: &Path, title: &str) -> Result<(), Cl
     let write = |name: &str, bytes: &[u8]| results::write_atomic(&folder.join(name), bytes);
     write("annual.json", annual_json(report).as_bytes())?;
     write("hours.csv", hours_csv(report).as_bytes())?;
-    for (number, SensorPoints { sensor, points }) in report.sensors().enumerate() {
-        let name = &sensor.name;
-        write(&format!("{name}.annual.csv"), annual_csv(sensor, points).as_bytes())?;
+    for (number, of) in report.sensors().enumerate() {
+        let name = &of.sensor.name;
+        write(&format!("{name}.annual.csv"), annual_csv(of).as_bytes())?;
+        if let Some(sheet) = report.equinox.csv(of.sensor, of.first, report.calendar) {
+            write(&format!("{name}.equinox.csv"), sheet.as_bytes())?;
+        }
         if let Some(png) = hours_png(report, number, title) {
             write(&format!("{name}.hours.png"), &png)?;
         }

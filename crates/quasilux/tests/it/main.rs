@@ -9,6 +9,7 @@ mod bsdf;
 #[path = "../../build/fingerprint/mod.rs"]
 mod build_fingerprint;
 mod cameras;
+mod daylight_factor;
 mod direct;
 mod door;
 mod embedded;

@@ -9,6 +9,7 @@
 //! at 1 % (Sidak 1967).
 
 mod count;
+mod known_scene;
 mod picture;
 mod report;
 mod scenes;
@@ -17,10 +18,10 @@ mod wall_in_the_sun;
 
 use crate::outcome::{Options, Outcome};
 use count::{Count, Figure, Moment, Verdict};
+use known_scene::KnownScene;
 use quasilux_sampling::{Randomization, Sequence};
 use quasilux_transport::Settings;
 use rayon::prelude::*;
-use scenes::KnownScene;
 use trial::Trial;
 
 /// Seeds of each scene and sequence, unless the command line says otherwise.

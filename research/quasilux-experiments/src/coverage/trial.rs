@@ -1,7 +1,7 @@
 //! One run: its intervals at the first checkpoint and where it stops, against the truth.
 
 use super::count::{Figure, Moment};
-use super::scenes::KnownScene;
+use super::known_scene::KnownScene;
 use quasilux_transport::interval::t_quantile_for;
 use quasilux_transport::{
     Control, Estimates, Interval, Observer, PointOfYear, Settings, YearHours, simulate,

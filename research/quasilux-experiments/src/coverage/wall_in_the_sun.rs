@@ -4,7 +4,7 @@
 //! All of the wall sees the same half of the sky and of the ground and the same sun, so that it has
 //! one luminance, and what it gives is a contour integral.
 
-use super::scenes::{KnownScene, polygon_lx};
+use super::known_scene::{KnownScene, polygon_lx};
 use crate::building::{add_material, add_quad, grey, points};
 use glam::DVec3;
 use quasilux_scene::{Environment, Scene, Sun};
