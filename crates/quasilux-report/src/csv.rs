@@ -5,6 +5,7 @@
 //! follow, shares, each with its half-width.
 
 use crate::number::exact;
+use crate::outside::DaylightColumn;
 use crate::{DaylightFactor, SensorReport};
 use std::fmt::Write;
 
@@ -20,7 +21,7 @@ pub fn csv(sensor: &SensorReport) -> String {
     }
     text.push_str(COLUMNS);
     let daylight = sensor.points.iter().find_map(|point| point.daylight_factor);
-    for (name, _) in daylight.iter().flat_map(DaylightFactor::columns) {
+    for DaylightColumn { name, .. } in daylight.iter().flat_map(DaylightFactor::columns) {
         write!(text, ",{name},{name}_half_width").expect("strings grow");
     }
     text.push('\n');
@@ -32,7 +33,7 @@ pub fn csv(sensor: &SensorReport) -> String {
         let place = point.position_m.to_array().into_iter().chain(point.normal.to_array());
         let light = [point.illuminance_lx.value, point.illuminance_lx.half_width, point.direct_lx];
         let daylight = point.daylight_factor.iter().flat_map(DaylightFactor::columns);
-        let daylight = daylight.flat_map(|(_, figure)| [figure.value, figure.half_width]);
+        let daylight = daylight.flat_map(|it| [it.figure.value, it.figure.half_width]);
         let light = light.into_iter().chain(daylight);
         let fields: Vec<String> =
             place.map(exact).chain(light.map(|x| x.map(exact).unwrap_or_default())).collect();

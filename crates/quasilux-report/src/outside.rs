@@ -34,6 +34,12 @@ pub struct DaylightFactorComponents {
     pub internally_reflected: Figure,
 }
 
+/// A part of a daylight factor, as results name it.
+pub(crate) struct DaylightColumn {
+    pub(crate) name: &'static str,
+    pub(crate) figure: Figure,
+}
+
 impl Outside {
     /// `None` where nothing is outside.
     #[must_use]
@@ -67,14 +73,15 @@ impl Outside {
 }
 
 impl DaylightFactor {
-    /// The whole and its parts, as results name them.
-    pub(crate) fn columns(&self) -> Vec<(&'static str, Figure)> {
-        let mut columns = vec![("daylight_factor", self.total)];
+    /// The whole and its parts.
+    pub(crate) fn columns(&self) -> Vec<DaylightColumn> {
+        let column = |name, figure| DaylightColumn { name, figure };
+        let mut columns = vec![column("daylight_factor", self.total)];
         if let Some(components) = self.components {
             columns.extend([
-                ("sky_component", components.sky),
-                ("externally_reflected_component", components.externally_reflected),
-                ("internally_reflected_component", components.internally_reflected),
+                column("sky_component", components.sky),
+                column("externally_reflected_component", components.externally_reflected),
+                column("internally_reflected_component", components.internally_reflected),
             ]);
         }
         columns

@@ -55,16 +55,16 @@ pub fn daylight_components<'a>(
         return None;
     }
     let settings = &Settings { estimator: EstimatorKind::Path, ..settings.clone() };
-    let wanted = Wanted { targets: &targets(scene), settings, illuminances_lx };
+    let points = KnownPoints { targets: &targets(scene), settings, illuminances_lx };
     if is_grey(scene) {
-        of_points(&Context::<f64>::new(prepared, settings), wanted)
+        of_points(&Context::<f64>::new(prepared, settings), points)
     } else {
-        of_points(&Context::<Rgb>::new(prepared, settings), wanted)
+        of_points(&Context::<Rgb>::new(prepared, settings), points)
     }
 }
 
 #[derive(Clone, Copy)]
-struct Wanted<'w> {
+struct KnownPoints<'w> {
     targets: &'w [Target],
     settings: &'w Settings,
     /// By target.
@@ -73,9 +73,9 @@ struct Wanted<'w> {
 
 fn of_points<S: Spectrum>(
     context: &Context<'_, S>,
-    wanted: Wanted<'_>,
+    points: KnownPoints<'_>,
 ) -> Option<Vec<DaylightComponents>> {
-    let Wanted { targets, settings, illuminances_lx } = wanted;
+    let KnownPoints { targets, settings, illuminances_lx } = points;
     context.lights.outside.as_ref().filter(|outside| outside.has_portals())?;
     let point = |(number, target)| {
         let of = |replicate| TargetReplicate { number, target, replicate };

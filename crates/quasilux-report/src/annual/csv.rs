@@ -17,8 +17,8 @@ pub fn annual_csv(of: SensorPoints<'_>) -> String {
     }
     let counts = ["hours_surely_above", "hours_surely_below", "hours_undecided", "samples"];
     columns.extend(counts.map(str::to_owned));
-    let of_sun = sun_hours.first().map(SunHours::columns);
-    columns.extend(of_sun.into_iter().flatten().map(|(name, _)| name.to_owned()));
+    let of_sun = SunHours::NAMES.iter().filter(|_| !sun_hours.is_empty());
+    columns.extend(of_sun.map(|name| (*name).to_owned()));
     let mut text = columns.join(",") + "\n";
     for (number, (place, point)) in sensor.points().iter().zip(points).enumerate() {
         let place = place.position.to_array().into_iter().chain(place.normal.to_array());
@@ -28,8 +28,7 @@ pub fn annual_csv(of: SensorPoints<'_>) -> String {
         let hours = point.hours;
         fields.extend([hours.above, hours.below, hours.undecided].map(|hours| hours.to_string()));
         fields.push(point.samples.to_string());
-        let of_sun = sun_hours.get(number).map(SunHours::columns);
-        fields.extend(of_sun.into_iter().flatten().map(|(_, hours)| exact(hours)));
+        fields.extend(sun_hours.get(number).into_iter().flat_map(SunHours::values).map(exact));
         text += &(fields.join(",") + "\n");
     }
     text

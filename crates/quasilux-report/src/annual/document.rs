@@ -55,9 +55,11 @@ pub fn annual_json(report: &AnnualReport<'_>) -> String {
             entry.insert("position".to_owned(), json!(place.position.to_array()));
             entry.insert("normal".to_owned(), json!(place.normal.to_array()));
             fill(&mut entry, point);
-            let of_sun = sun_hours.get(number).map(SunHours::columns);
-            let hours = of_sun.into_iter().flatten();
-            entry.extend(hours.map(|(name, hours)| (name.to_owned(), json!(hours))));
+            for (name, hours) in
+                SunHours::NAMES.iter().zip(sun_hours.get(number).iter().flat_map(|it| it.values()))
+            {
+                entry.insert((*name).to_owned(), json!(hours));
+            }
             entry
         });
         SensorEntry { name: &sensor.name, points: points.collect(), summary: summary_of(&summary) }

@@ -62,12 +62,12 @@ pub fn sun_hours(
 }
 
 impl SunHours {
-    /// The hours as results name them.
-    pub(super) fn columns(&self) -> [(&'static str, f64); 3] {
-        [
-            ("sunlit_h", self.sunlit_h),
-            ("clear_sky_sunlit_h", self.clear_sky_sunlit_h),
-            ("equinox_sunlit_h", self.equinox_sunlit_h),
-        ]
+    /// What results call them.
+    pub(super) const NAMES: [&'static str; 3] =
+        ["sunlit_h", "clear_sky_sunlit_h", "equinox_sunlit_h"];
+
+    /// In the order of the names.
+    pub(super) fn values(&self) -> [f64; 3] {
+        [self.sunlit_h, self.clear_sky_sunlit_h, self.equinox_sunlit_h]
     }
 }

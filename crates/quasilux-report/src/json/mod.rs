@@ -35,6 +35,7 @@ mod layout;
 mod prediction;
 mod terms;
 
+use crate::outside::DaylightColumn;
 use crate::{DaylightFactor, Figure, Outside, Report, Run, SensorReport};
 pub use finding::FindingEntry;
 
@@ -296,7 +297,7 @@ impl PointEntry {
 /// A daylight factor and its parts, each with the half-width.
 fn daylight(factor: DaylightFactor) -> Map<String, Value> {
     let mut entries = Map::new();
-    for (name, Figure { value, half_width }) in factor.columns() {
+    for DaylightColumn { name, figure: Figure { value, half_width } } in factor.columns() {
         entries.insert(name.to_owned(), json!(value));
         entries.insert(format!("{name}_half_width"), json!(half_width));
     }

@@ -58,8 +58,8 @@ impl Panorama {
     /// W/(sr m2) as Radiance does: a luminance is 179 lm/W times 0.265 R + 0.670 G + 0.065 B, or
     /// times Y. Exposures and colour corrections of the file are undone.
     ///
-    /// It takes no more than 12 bytes for each pixel of the sky, 16 384 for each byte of a file that
-    /// it refuses, and 256 KiB.
+    /// It takes no more than 12 bytes for each pixel of the sky, 16 384 for each byte of a file
+    /// that it refuses, and 256 KiB.
     ///
     /// # Errors
     /// With the line of the header for other files, pictures that are not twice as wide as high or

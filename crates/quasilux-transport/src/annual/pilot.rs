@@ -13,8 +13,8 @@ use rayon::prelude::*;
 const PILOT_POINTS: usize = 64;
 const PILOT_PATHS: u64 = 64;
 
-/// Where the sun shines, found out by paths of a replicate that counts nowhere, from targets all over
-/// the scene.
+/// Where the sun shines, found out by paths of a replicate that counts nowhere, from targets all
+/// over the scene.
 pub(super) fn sun_ways<S: Spectrum>(
     context: &Context<'_, S>,
     suns: &Suns,

@@ -29,12 +29,12 @@ pub(crate) struct SunPlace {
 /// How often suns were found to shine, by way.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct SunWays {
-    of_side: HashMap<u32, [Found; 3]>,
-    of_all: [Found; 3],
+    of_side: HashMap<u32, [SunCounts; 3]>,
+    of_all: [SunCounts; 3],
 }
 
 #[derive(Clone, Copy, Debug, Default)]
-struct Found {
+struct SunCounts {
     asked: u32,
     shining: u32,
 }
@@ -51,13 +51,13 @@ impl SunWays {
     pub(crate) fn note(&mut self, place: SunPlace, is_shining: bool) {
         let own = self.of_side.entry(place.side).or_default();
         for found in [own, &mut self.of_all].map(|ways| &mut ways[place.way as usize]) {
-            found.add(Found { asked: 1, shining: u32::from(is_shining) });
+            found.add(SunCounts { asked: 1, shining: u32::from(is_shining) });
         }
     }
 
     /// Adds what others found.
     pub(crate) fn merge(mut self, other: Self) -> Self {
-        let add = |own: &mut [Found; 3], more: [Found; 3]| {
+        let add = |own: &mut [SunCounts; 3], more: [SunCounts; 3]| {
             own.iter_mut().zip(more).for_each(|(own, more)| own.add(more));
         };
         for (side, more) in other.of_side {
@@ -67,8 +67,8 @@ impl SunWays {
         self
     }
 
-    /// The chance that a sun shines where it is asked for.
-    pub(crate) fn chance(&self, SunPlace { way, side }: SunPlace) -> f64 {
+    /// The share of the suns that are asked for there that shine.
+    pub(crate) fn shining_share(&self, SunPlace { way, side }: SunPlace) -> f64 {
         let [asked, shining] = self.of_all[way as usize].counts();
         let prior = PRIOR * shining / asked.max(1.0);
         let own = self.of_side.get(&side).copied().unwrap_or_default();
@@ -77,7 +77,7 @@ impl SunWays {
     }
 }
 
-impl Found {
+impl SunCounts {
     fn add(&mut self, more: Self) {
         self.asked += more.asked;
         self.shining += more.shining;

@@ -81,7 +81,8 @@ impl Suns {
     /// How many of so many suns are asked at a place. Of suns that shine with a chance, the square
     /// root of that as a share makes the most of the rays.
     fn asked(&self, place: SunPlace, suns: usize) -> f64 {
-        let learnt = |ways: &Arc<SunWays>| (suns as f64 * ways.chance(place).sqrt()).max(RARELY);
+        let learnt =
+            |ways: &Arc<SunWays>| (suns as f64 * ways.shining_share(place).sqrt()).max(RARELY);
         self.ways.as_ref().map_or(ASKED, learnt)
     }
 

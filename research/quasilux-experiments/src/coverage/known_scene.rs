@@ -21,10 +21,10 @@ pub(super) struct KnownScene {
     pub(super) rel_tol: [f64; 2],
 }
 
-/// What a polygon of one luminance gives to a place that sees all of it from above its horizon
-/// (J. H. Lambert, Photometria, 1760): half the luminance times the sum over edges of the angle that
-/// an edge subtends times the cosine of its plane's normal. Corners run counter-clockwise as the
-/// place sees them.
+/// What a polygon of one luminance gives to a place that sees all of it from above its horizon (J.
+/// H. Lambert, Photometria, 1760): half the luminance times the sum over edges of the angle that an
+/// edge subtends times the cosine of its plane's normal. Corners run counter-clockwise as the place
+/// sees them.
 pub(super) fn polygon_lx(at: DVec3, n: DVec3, corners: &[DVec3], luminance_cd_m2: f64) -> f64 {
     let edges = corners.iter().zip(corners.iter().cycle().skip(1));
     let edge = |(a, b): (&DVec3, &DVec3)| {
