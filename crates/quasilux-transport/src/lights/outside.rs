@@ -14,6 +14,8 @@ mod apertures;
 mod directions;
 mod hull;
 mod photons;
+#[cfg(test)]
+mod tests;
 mod views;
 
 pub(crate) use photons::{Beside, OutsidePhoton, OutsidePhotons};
