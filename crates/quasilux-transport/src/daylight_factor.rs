@@ -21,11 +21,21 @@ use quasilux_scene::Rgb;
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Paths of each replicate at first, and at most where nobody says.
+/// Paths of each replicate at first, and at most for each sample that the illuminance took: most of
+/// them are short.
 const FIRST: u64 = 256;
-const MOST: u64 = 1 << 16;
+const PER_SAMPLE: u64 = 4;
 /// A component may take this share of the tolerance of the illuminance.
 const SHARE_OF_TOLERANCE: f64 = 0.5;
+
+/// An illuminance that a run found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FoundIlluminance {
+    /// In lx.
+    pub lx: f64,
+    /// The samples of each replicate behind it.
+    pub samples: u64,
+}
 
 /// What is known of the light at a sensor point beside its illuminance.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,9 +46,9 @@ pub struct DaylightComponents {
     pub externally_reflected_lx: Interval,
 }
 
-/// The components at all sensor points, sensor by sensor, of illuminances in lx to whose tolerance
-/// they are to be known. `None` where the sky does not shine alone, and where there are no openings
-/// that make an inside.
+/// The components at all sensor points, sensor by sensor, of illuminances to whose tolerance they
+/// are to be known, in no more time than these took. `None` where the sky does not shine alone, and
+/// where there are no openings that make an inside.
 ///
 /// The result is a function of scene, settings and illuminances. Runs in the rayon pool that the
 /// call is made in.
@@ -46,7 +56,7 @@ pub struct DaylightComponents {
 pub fn daylight_components<'a>(
     scene: impl Into<PreparedScene<'a>>,
     settings: &Settings,
-    illuminances_lx: &[f64],
+    illuminances: &[FoundIlluminance],
 ) -> Option<Vec<DaylightComponents>> {
     let prepared = scene.into();
     let scene = prepared.scene();
@@ -55,7 +65,7 @@ pub fn daylight_components<'a>(
         return None;
     }
     let settings = &Settings { estimator: EstimatorKind::Path, ..settings.clone() };
-    let points = KnownPoints { targets: &targets(scene), settings, illuminances_lx };
+    let points = KnownPoints { targets: &targets(scene), settings, illuminances };
     if is_grey(scene) {
         of_points(&Context::<f64>::new(prepared, settings), points)
     } else {
@@ -68,39 +78,37 @@ struct KnownPoints<'w> {
     targets: &'w [Target],
     settings: &'w Settings,
     /// By target.
-    illuminances_lx: &'w [f64],
+    illuminances: &'w [FoundIlluminance],
 }
 
 fn of_points<S: Spectrum>(
     context: &Context<'_, S>,
     points: KnownPoints<'_>,
 ) -> Option<Vec<DaylightComponents>> {
-    let KnownPoints { targets, settings, illuminances_lx } = points;
+    let KnownPoints { targets, settings, illuminances } = points;
     context.lights.outside.as_ref().filter(|outside| outside.has_portals())?;
     let point = |(number, target)| {
         let of = |replicate| TargetReplicate { number, target, replicate };
-        let known_lx = illuminances_lx.get(number).copied().unwrap_or_default();
+        let found = illuminances.get(number);
+        let FoundIlluminance { lx, samples } =
+            found.copied().unwrap_or(FoundIlluminance { lx: 0.0, samples: 0 });
+        let most = samples.saturating_mul(PER_SAMPLE).max(FIRST);
         let mut sums = vec![[0.0; 2]; settings.effective_replicates() as usize];
         let mut wave = PathWave::default();
         let mut paths = 0;
         loop {
-            let goal = (2 * paths).max(FIRST).min(limit(settings));
+            let goal = (2 * paths).clamp(FIRST, most);
             for (replicate, sums) in (0..).zip(&mut sums) {
                 add(context, of(replicate), paths..goal, &mut wave, sums);
             }
             paths = goal;
             let found = components(settings, &sums, paths);
-            if paths == limit(settings) || found.are_known(settings, known_lx) {
+            if paths == most || found.are_known(settings, lx) {
                 return found;
             }
         }
     };
     Some(targets.par_iter().enumerate().map(point).collect())
-}
-
-/// Most paths of a point in a replicate.
-fn limit(settings: &Settings) -> u64 {
-    settings.max_samples.unwrap_or(MOST)
 }
 
 /// Traces paths of a point in one replicate.

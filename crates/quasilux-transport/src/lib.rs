@@ -55,7 +55,7 @@ pub use annual::{
 };
 pub use bsdf::Scattering;
 pub use codec::StateError;
-pub use daylight_factor::{DaylightComponents, daylight_components};
+pub use daylight_factor::{DaylightComponents, FoundIlluminance, daylight_components};
 pub use explain::{Explanation, explain};
 pub use prepared::PreparedScene;
 pub use quasilux_sampling::DimensionHistogram;

@@ -8,7 +8,8 @@ use quasilux_scene::bsdf::{Pane, Translucent};
 use quasilux_scene::{Bsdf, Environment, Opening, Rgb, Scene, Sun};
 use quasilux_sky::SkyPoint;
 use quasilux_transport::{
-    DaylightComponents, EstimatorKind, Interval, Settings, daylight_components, simulate,
+    DaylightComponents, EstimatorKind, FoundIlluminance, Interval, Settings, daylight_components,
+    simulate,
 };
 
 fn settings(seed: u64) -> Settings {
@@ -23,8 +24,9 @@ fn illuminances(scene: &Scene, seed: u64) -> Vec<Interval> {
 }
 
 fn components(scene: &Scene, seed: u64) -> Option<Vec<DaylightComponents>> {
-    let known: Vec<f64> = illuminances(scene, seed).iter().map(|it| it.value).collect();
-    daylight_components(scene, &settings(seed), &known)
+    let found = |it: &Interval| FoundIlluminance { lx: it.value, samples: 1 << 12 };
+    let found: Vec<FoundIlluminance> = illuminances(scene, seed).iter().map(found).collect();
+    daylight_components(scene, &settings(seed), &found)
 }
 
 /// What fills the window: nothing and a name, a clear pane, or a diffusing sheet.

@@ -15,7 +15,8 @@ use quasilux_inspection::{DarkPoints, Finding, explain_darkness};
 use quasilux_report::{PictureOf, Report, RunFacts, Style, json, table};
 use quasilux_scene::Scene;
 use quasilux_transport::{
-    DaylightComponents, Estimates, PreparedScene, Settings, daylight_components,
+    DaylightComponents, Estimates, FoundIlluminance, Interval, PreparedScene, Settings,
+    daylight_components,
 };
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
@@ -180,11 +181,16 @@ fn daylight(
     estimates: &Estimates,
 ) -> Option<Vec<DaylightComponents>> {
     let sensors = 0..estimates.sensors.len();
-    let lx: Vec<f64> = sensors
-        .flat_map(|sensor| estimates.point_intervals(sensor))
-        .map(|interval| interval.value)
-        .collect();
-    daylight_components(prepared.clone(), settings, &lx)
+    let of_sensor = |sensor: usize| {
+        let intervals = estimates.point_intervals(sensor);
+        let found = |(interval, samples): (Interval, &u64)| FoundIlluminance {
+            lx: interval.value,
+            samples: *samples,
+        };
+        intervals.into_iter().zip(&estimates.sensors[sensor].samples).map(found)
+    };
+    let found: Vec<FoundIlluminance> = sensors.flat_map(of_sensor).collect();
+    daylight_components(prepared.clone(), settings, &found)
 }
 
 /// Why no light was found at some sensor points.
