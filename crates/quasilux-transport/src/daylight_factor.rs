@@ -29,7 +29,7 @@ const PER_SAMPLE: u64 = 4;
 const SHARE_OF_TOLERANCE: f64 = 0.5;
 
 /// An illuminance that a run found.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FoundIlluminance {
     /// In lx.
     pub lx: f64,
@@ -47,8 +47,8 @@ pub struct DaylightComponents {
 }
 
 /// The components at all sensor points, sensor by sensor, of illuminances to whose tolerance they
-/// are to be known, in no more time than these took. `None` where the sky does not shine alone, and
-/// where there are no openings that make an inside.
+/// are to be known, with at most four paths for each of their samples. `None` where the sky does not
+/// shine alone, and where there are no openings that make an inside.
 ///
 /// The result is a function of scene, settings and illuminances. Runs in the rayon pool that the
 /// call is made in.
@@ -90,8 +90,7 @@ fn of_points<S: Spectrum>(
     let point = |(number, target)| {
         let of = |replicate| TargetReplicate { number, target, replicate };
         let found = illuminances.get(number);
-        let FoundIlluminance { lx, samples } =
-            found.copied().unwrap_or(FoundIlluminance { lx: 0.0, samples: 0 });
+        let FoundIlluminance { lx, samples } = found.copied().unwrap_or_default();
         let most = samples.saturating_mul(PER_SAMPLE).max(FIRST);
         let mut sums = vec![[0.0; 2]; settings.effective_replicates() as usize];
         let mut wave = PathWave::default();

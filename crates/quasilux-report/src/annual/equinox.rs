@@ -5,13 +5,14 @@ use super::calendar::{Calendar, Interval};
 use super::point::PointOfHours;
 use crate::number::exact;
 use quasilux_scene::Sensor;
+use quasilux_sky::LocalTime;
 use std::fmt::Write;
 
-/// Days of the year, from 0, of 20 March and 22 September, and how far the clear day may be.
-const EQUINOXES: [u32; 2] = [78, 264];
+/// Months and days of the equinoxes, and how many days off the clear day may be.
+const EQUINOXES: [[u32; 2]; 2] = [[3, 20], [9, 22]];
 const DAYS_AROUND: u32 = 15;
-/// Days before each month of a year without a leap day.
-const DAYS_BEFORE: [u32; 12] = [0, 31, 59, 90, 120, 151, 181, 212, 243, 273, 304, 334];
+/// A year that has all dates.
+const LEAP_YEAR: i32 = 2028;
 /// Hours of the clock that are listed.
 const HOURS: std::ops::RangeInclusive<f64> = 9.0..=15.0;
 
@@ -27,12 +28,13 @@ impl EquinoxSheets {
     /// Those of a calendar, without points. A file that has no such days makes empty ones.
     #[must_use]
     pub fn begin(calendar: &Calendar) -> Self {
-        let of_day = |equinox: u32| {
-            let near = |it: &Interval| day_of_year(it).abs_diff(equinox) <= DAYS_AROUND;
+        let of_day = |[month, day]: [u32; 2]| {
+            let equinox = day_of_year(month, day);
+            let near = |it: &Interval| day_of(it).abs_diff(equinox) <= DAYS_AROUND;
             // What the sun gives in all of the hours that are listed, day by day.
             let mut days: Vec<(u32, f64)> = Vec::new();
             for interval in calendar.intervals.iter().filter(|it| near(it) && is_listed(it)) {
-                let day = day_of_year(interval);
+                let day = day_of(interval);
                 let sky = interval.sky.map(|sky| &calendar.skies[sky]);
                 let lx = sky.map_or(0.0, |sky| sky.sun_normal_illuminance_lx);
                 match days.iter_mut().find(|(known, _)| *known == day) {
@@ -44,7 +46,7 @@ impl EquinoxSheets {
             clearest.filter(|(_, lx)| *lx > 0.0).map(|(day, _)| day)
         };
         let days = EQUINOXES.map(of_day);
-        let is_own = |it: &Interval| is_listed(it) && days.contains(&Some(day_of_year(it)));
+        let is_own = |it: &Interval| is_listed(it) && days.contains(&Some(day_of(it)));
         let all = calendar.intervals.iter().enumerate();
         let intervals = all.filter(|(_, it)| is_own(it)).map(|(number, _)| number).collect();
         Self { intervals, points: Vec::new() }
@@ -83,8 +85,13 @@ impl EquinoxSheets {
     }
 }
 
-fn day_of_year(interval: &Interval) -> u32 {
-    DAYS_BEFORE[interval.month as usize - 1] + interval.day - 1
+fn day_of(interval: &Interval) -> u32 {
+    day_of_year(interval.month, interval.day)
+}
+
+/// The day of a leap year; 0 for dates that no weather file has.
+fn day_of_year(month: u32, day: u32) -> u32 {
+    LocalTime::new(LEAP_YEAR, month, day, 0.0).map_or(0, |time| time.day_of_year())
 }
 
 fn is_listed(interval: &Interval) -> bool {

@@ -154,6 +154,11 @@ impl<S: Spectrum> Bsdf<S> {
         }
     }
 
+    /// Whether light passes it to the other side, scattered or straight.
+    pub(crate) fn lets_through(&self) -> bool {
+        self.transmits() || self.straight_transmittance(1.0).is_some()
+    }
+
     /// Whether the light that leaves it hangs on its illuminance alone, so that an illumination map
     /// can stand on it.
     pub(crate) fn keeps_illuminance(&self) -> bool {

@@ -96,10 +96,7 @@ impl<'a> OutsideLight<'a> {
         let named = environment.openings.iter().flat_map(Opening::triangles);
         let mut portals: Vec<[DVec3; 3]> = named.collect();
         if portals.is_empty() {
-            let lets_through = |facet: &&Facet| {
-                let bsdf = world.bsdf_of(facet);
-                bsdf.transmits() || bsdf.straight_transmittance(1.0).is_some()
-            };
+            let lets_through = |facet: &&Facet| world.bsdf_of(facet).lets_through();
             let panes = world.facets.iter().filter(lets_through);
             portals = panes.map(|facet| facet.corners()).collect();
         }

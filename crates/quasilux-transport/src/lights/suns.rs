@@ -75,7 +75,7 @@ impl Suns {
 
     /// Whether it is still to be learnt where they shine.
     pub(crate) fn is_learning(&self) -> bool {
-        self.ways.is_none()
+        self.ways.is_none() && !self.directions.is_empty()
     }
 
     /// How many of so many suns are asked at a place. Of suns that shine with a chance, the square

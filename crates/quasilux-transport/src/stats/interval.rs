@@ -15,11 +15,10 @@ pub struct Interval {
 }
 
 impl Interval {
-    /// The interval of a mean: `t` is the two-sided quantile, `None` for fewer than two values.
-    pub(crate) fn of_mean(
-        values: impl ExactSizeIterator<Item = f64> + Clone,
-        t: Option<f64>,
-    ) -> Self {
+    /// The interval of a mean: `t` is the two-sided quantile ([`t_quantile_for`]), `None` for fewer
+    /// than two values.
+    #[must_use]
+    pub fn of_mean(values: impl ExactSizeIterator<Item = f64> + Clone, t: Option<f64>) -> Self {
         let n = values.len() as f64;
         let value = values.clone().sum::<f64>() / n;
         let half_width = t.map(|t| {

@@ -105,15 +105,9 @@ fn hours(known: &KnownScene, settings: &Settings) -> End {
     let mut go_on = |_| Control::Continue;
     simulate_year(&known.scene, year, settings, &mut go_on, |it| it, |it| points.push(it));
     let t = t_quantile_for(settings.replicates as usize, 1.0 - settings.confidence);
-    let interval = |values: Vec<f64>| {
-        let n = values.len() as f64;
-        let value = values.iter().sum::<f64>() / n;
-        let squares: f64 = values.iter().map(|x| (x - value) * (x - value)).sum();
-        Interval { value, half_width: t.map(|t| t * (squares / (n * (n - 1.0))).sqrt()) }
-    };
     let hours = known.hours.len();
     let of_hour = |point: &PointOfYear, hour: usize| {
-        interval(point.illuminance_lx.iter().map(|lx| f64::from(lx[hour])).collect())
+        Interval::of_mean(point.illuminance_lx.iter().map(|lx| f64::from(lx[hour])), t)
     };
     let all: Vec<Interval> =
         points.iter().flat_map(|it| (0..hours).map(|hour| of_hour(it, hour))).collect();
@@ -121,7 +115,7 @@ fn hours(known: &KnownScene, settings: &Settings) -> End {
         let values = points.iter().flat_map(|point| &point.illuminance_lx[replicate]);
         values.map(|lx| f64::from(*lx)).sum::<f64>() / all.len() as f64
     };
-    let average = interval((0..settings.replicates as usize).map(mean).collect());
+    let average = Interval::of_mean((0..settings.replicates as usize).map(mean), t);
     let least = all.iter().copied().min_by(|a, b| a.value.total_cmp(&b.value));
     let least = least.expect("a scene with hours has points");
     let most = points.iter().map(|point| point.samples).max().unwrap_or_default();

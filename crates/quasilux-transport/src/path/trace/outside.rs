@@ -161,10 +161,11 @@ impl<S: Spectrum> Path<'_, S> {
         };
     }
 
-    /// Notes the named openings on its way to a surface.
+    /// Notes the named openings on its way to a surface, where it matters what is beyond them.
     pub(super) fn note_openings(&mut self, context: &Context<'_, S>, at: &Interaction) {
         let Self { from, direction, daylight, .. } = self;
         if let (Some(outside), Some(daylight)) = (&context.lights.outside, daylight)
+            && daylight.search.only_from_beyond
             && outside.names_openings()
         {
             // An opening in a pane is passed when the path goes on from there.
@@ -188,8 +189,7 @@ impl<S: Spectrum> Path<'_, S> {
 
     /// Whether anything that a surface sends counts: of some paths not what it reflects.
     pub(super) fn may_count(&self, bsdf: &Bsdf<S>) -> bool {
-        let lets_through = || bsdf.transmits() || bsdf.straight_transmittance(1.0).is_some();
-        !self.daylight.as_ref().is_some_and(Daylight::leaves_reflected) || lets_through()
+        !self.daylight.as_ref().is_some_and(Daylight::leaves_reflected) || bsdf.lets_through()
     }
 
     /// Adds what it finds where it leaves the scene.
