@@ -10,32 +10,13 @@
 mod damage;
 
 use damage::{panorama, weather};
-use quasilux_stats::damage::{Outcome, Outcomes, Seeds, examine_damaged};
+use quasilux_stats::damage::{Kind, examine_kinds};
 use std::process::ExitCode;
 
-/// What is read, what files start as, and the reader with its checks.
-type Kind = (&'static str, Seeds, fn(&[u8]) -> Outcome);
-
 fn main() -> ExitCode {
-    let arguments: Result<Vec<u64>, _> = std::env::args().skip(1).map(|a| a.parse()).collect();
-    let Ok(arguments) = arguments else {
-        eprintln!("usage: mutate [FILES [FIRST]]");
-        return ExitCode::from(2);
-    };
-    let count = arguments.first().copied().unwrap_or(200_000);
-    let first = arguments.get(1).copied().unwrap_or(0);
-    let kinds: [Kind; 2] = [
-        ("weather files", weather::seeds(), weather::examine),
-        ("panoramas", panorama::samples(), panorama::examine),
-    ];
-    for (name, seeds, examine) in kinds {
-        let Outcomes { read, max_bytes } = examine_damaged(&seeds, first..first + count, examine);
-        println!(
-            "{count} damaged {name} of {} seeds: {read} load, {} are refused; at most {max_bytes} \
-             bytes allocated at one time",
-            seeds.files().len(),
-            count - read,
-        );
-    }
-    ExitCode::SUCCESS
+    let seeds = weather::seeds();
+    let weather = Kind { name: "weather files", seeds, examine: weather::examine };
+    let seeds = panorama::samples();
+    let panoramas = Kind { name: "panoramas", seeds, examine: panorama::examine };
+    examine_kinds(&[weather, panoramas], 200_000)
 }

@@ -47,8 +47,8 @@ pub struct DaylightComponents {
 }
 
 /// The components at all sensor points, sensor by sensor, of illuminances to whose tolerance they
-/// are to be known, with at most four paths for each of their samples. `None` where the sky does not
-/// shine alone, and where there are no openings that make an inside.
+/// are to be known, with at most four paths for each of their samples. `None` where the sky does
+/// not shine alone, and where there are no openings that make an inside.
 ///
 /// The result is a function of scene, settings and illuminances. Runs in the rayon pool that the
 /// call is made in.

@@ -3,9 +3,11 @@
 //! A damaged file is a pure function of its number and of the undamaged files, the seeds, so that a
 //! finding is told by a number.
 
+mod kinds;
 mod mutator;
 mod random;
 
+pub use kinds::{Kind, examine_kinds};
 pub use mutator::mutate;
 pub use random::SplitMix64;
 
