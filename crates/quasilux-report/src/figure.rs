@@ -1,9 +1,10 @@
 //! A figure of a report: a finite value with half the width of its confidence interval.
 
 use quasilux_transport::Interval;
+use serde::{Deserialize, Serialize};
 
 /// A finite value and half the width of its confidence interval, as far as they are known.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Figure {
     /// The estimate; `None` where it is undefined.
     pub value: Option<f64>,

@@ -3,6 +3,7 @@
 //! A checkpoint is written beside its place and renamed into it, so that it is there whole or not
 //! at all; the one before of the same run stays as `FILE.previous`.
 
+use crate::arguments::ResumeArguments;
 use crate::atomic_file::{self, beside};
 use crate::build::{self, BUILD, VERSION};
 use crate::container::{self, Contents};
@@ -77,15 +78,37 @@ enum Before {
 }
 
 impl Heading {
+    /// Of a run that begins.
+    pub(crate) fn new(project: &Project, kept: RunPaths<'_>) -> Self {
+        let RunPaths { file, out, settings } = kept;
+        Self {
+            version: VERSION.to_owned(),
+            build: BUILD.to_owned(),
+            project: file.to_owned(),
+            project_absolute: from_the_root(file),
+            scene: project.identity.clone(),
+            settings: settings.clone(),
+            out: out.to_owned(),
+            out_absolute: from_the_root(out),
+            seconds: 0.0,
+        }
+    }
+
     /// Where the results went: as it was given where the project is found as it was given, and so
     /// most likely from the same folder.
     pub(crate) fn folder(&self) -> &Path {
         if self.project.is_file() { &self.out } else { &self.out_absolute }
     }
 
-    /// Refuses what another build of the program left.
-    pub(crate) fn expect_build(&self) -> Result<(), String> {
+    /// Where the project of this program's run is: as told, or as it was given to the run, here or
+    /// there. Refuses what another build of the program left.
+    pub(crate) fn project_file(&self, arguments: &ResumeArguments) -> Result<PathBuf, CliError> {
+        let name = arguments.checkpoint.display();
         build::expect(&self.version, &self.build)
+            .map_err(|what| CliError::in_file(name, None, what))?;
+        let known = [&self.project, &self.project_absolute];
+        let found = known.into_iter().find(|path| path.is_file()).unwrap_or(&self.project);
+        Ok(arguments.project.clone().unwrap_or_else(|| found.clone()))
     }
 }
 
@@ -107,7 +130,7 @@ impl CheckpointWriter {
         project: &Project,
         kept: RunPaths<'_>,
     ) -> Result<Self, CliError> {
-        let RunPaths { file, out, settings } = kept;
+        let RunPaths { file, out, .. } = kept;
         results::prepare_file(path, &[file])?;
         results::expect_text(file)?;
         results::expect_text(out)?;
@@ -115,17 +138,7 @@ impl CheckpointWriter {
             let message = format!("cannot keep the run: {error}");
             CliError::in_file(path.display(), None, message)
         })?;
-        let heading = Heading {
-            version: VERSION.to_owned(),
-            build: BUILD.to_owned(),
-            project: file.to_owned(),
-            project_absolute: from_the_root(file),
-            scene: project.identity.clone(),
-            settings: settings.clone(),
-            out: out.to_owned(),
-            out_absolute: from_the_root(out),
-            seconds: 0.0,
-        };
+        let heading = Heading::new(project, kept);
         Ok(Self { path: path.to_owned(), heading, before: Before::Foreign })
     }
 

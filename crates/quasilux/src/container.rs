@@ -43,6 +43,38 @@ pub(crate) fn read(path: &Path) -> io::Result<Vec<u8>> {
     if is_ours { input::read(path, input::MAX_SUMS_BYTES) } else { Ok(head) }
 }
 
+/// The bytes of the next of several files in one, up to where the reader ends; `None` at its end.
+/// What is no file of this format is read no further than its first bytes, and no part of it may
+/// have more than so many.
+pub(crate) fn next(
+    reader: &mut dyn Read,
+    format: &str,
+    max_bytes: u64,
+) -> io::Result<Option<Vec<u8>>> {
+    let mut bytes = Vec::new();
+    let line = format!("{format}\n");
+    reader.take(line.len() as u64).read_to_end(&mut bytes)?;
+    if bytes.is_empty() {
+        return Ok(None);
+    }
+    if bytes != line.as_bytes() {
+        return Ok(Some(bytes));
+    }
+    // Header and body, each behind its length.
+    for _ in 0..2 {
+        let begin = bytes.len();
+        reader.take(size_of::<u64>() as u64).read_to_end(&mut bytes)?;
+        let Some(length) = bytes[begin..].first_chunk() else { return Ok(Some(bytes)) };
+        let length = u64::from_le_bytes(*length);
+        if length > max_bytes {
+            return Ok(Some(bytes));
+        }
+        reader.take(length).read_to_end(&mut bytes)?;
+    }
+    reader.take(BYTES as u64).read_to_end(&mut bytes)?;
+    Ok(Some(bytes))
+}
+
 /// The two parts of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Contents<'b> {
@@ -103,6 +135,29 @@ mod tests {
             assert!(decode(FORMAT, &changed).is_err(), "{bit}");
         }
         assert!(decode(FORMAT, &[&bytes[..], &[0]].concat()).is_err());
+    }
+
+    /// Two in one, every cut of them, and lengths that are too large.
+    #[test]
+    fn several_in_one_are_read_one_by_one() {
+        let [a, b] = [encode(FORMAT, "{}", &[1, 2]), encode(FORMAT, "[]", &[3])];
+        let both = [&a[..], &b].concat();
+        for length in 0..=both.len() {
+            let mut reader = &both[..length];
+            let mut whole = Vec::new();
+            while let Some(bytes) = next(&mut reader, FORMAT, 100).unwrap() {
+                whole.push(decode(FORMAT, &bytes).is_ok());
+            }
+            let expected = match length {
+                0 => vec![],
+                _ if length < a.len() => vec![false],
+                _ if length == a.len() => vec![true],
+                _ => vec![true, length == both.len()],
+            };
+            assert_eq!(whole, expected, "{length}");
+        }
+        let bytes = next(&mut &both[..], FORMAT, 1).unwrap().unwrap();
+        assert!(decode(FORMAT, &bytes).is_err() && bytes.len() < a.len());
     }
 
     #[test]

@@ -31,6 +31,7 @@ mod project;
 mod results;
 mod source;
 mod watcher;
+mod year_file;
 
 use arguments::{Arguments, Command};
 use clap::Parser;

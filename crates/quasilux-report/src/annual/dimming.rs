@@ -38,7 +38,7 @@ impl Dimming {
     /// Adds the illuminances of a point in lx, by replicate and hour with light, if it is one of
     /// the sensor's.
     pub(super) fn add(&mut self, number: usize, illuminance_lx: &[Vec<f32>]) {
-        if !self.points.contains(&number) {
+        if !self.looks_at(number) {
             return;
         }
         let share = 1.0 / self.points.len() as f64;
@@ -47,6 +47,12 @@ impl Dimming {
             means.resize(hours.len(), 0.0);
             means.iter_mut().zip(hours).for_each(|(mean, lx)| *mean += share * f64::from(*lx));
         }
+    }
+
+    /// Whether a point, numbered through all sensors, is one of the sensor's.
+    #[must_use]
+    pub fn looks_at(&self, number: usize) -> bool {
+        self.points.contains(&number)
     }
 
     /// The energy of the occupied hours. Power falls in a straight line from all of it without

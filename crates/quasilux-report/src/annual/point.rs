@@ -11,9 +11,10 @@ use super::measures::{Measure, Thresholds, measures};
 use crate::Figure;
 use quasilux_transport::PointOfYear;
 use quasilux_transport::interval::t_quantile_for;
+use serde::{Deserialize, Serialize};
 
 /// What one sensor point has of a year.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PointSummary {
     /// In the order of [`Measure::ALL`].
     pub measures: [Figure; Measure::ALL.len()],
@@ -28,7 +29,7 @@ pub struct PointSummary {
 }
 
 /// Intervals of a year, by what is known of their illuminance.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct HourCounts {
     /// The whole interval of confidence is above the threshold.
     pub above: u32,
@@ -39,7 +40,7 @@ pub struct HourCounts {
 }
 
 /// The same with its hours.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PointOfHours {
     /// What is kept of it.
     pub summary: PointSummary,
@@ -48,7 +49,7 @@ pub struct PointOfHours {
     pub illuminance_lx: Vec<f32>,
     /// Their half-widths.
     pub half_width_lx: Vec<f32>,
-    /// Illuminances in lx by replicate and hour with light.
+    /// Illuminances in lx by replicate and hour with light; empty where nobody needs them any more.
     pub(super) by_replicate: Vec<Vec<f32>>,
 }
 
@@ -61,6 +62,22 @@ impl PointSummary {
 }
 
 impl PointOfHours {
+    /// Whether it has the hours of a calendar, and those of its replicates or none.
+    #[must_use]
+    pub fn fits(&self, calendar: &Calendar, has_replicates: bool) -> bool {
+        let intervals = calendar.intervals.len();
+        let is_whole = |hours: &Vec<f32>| hours.len() == calendar.skies.len();
+        [&self.illuminance_lx, &self.half_width_lx].iter().all(|hours| hours.len() == intervals)
+            && self.by_replicate.iter().all(is_whole)
+            && self.by_replicate.is_empty() != has_replicates
+    }
+
+    /// Without the hours of its replicates, which electric light alone needs.
+    #[must_use]
+    pub fn slimmed(self) -> Self {
+        Self { by_replicate: Vec::new(), ..self }
+    }
+
     /// What a point that was simulated has of the year, with intervals of this level of confidence.
     #[must_use]
     pub fn new(

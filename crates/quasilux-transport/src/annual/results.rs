@@ -25,10 +25,12 @@ pub struct PointOfYear {
 /// How far a run is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct YearProgress {
-    /// Points that are over, of how many.
-    pub points: [usize; 2],
-    /// Rays so far.
-    pub rays: u64,
+    /// Points before this number are over.
+    pub over: usize,
+    /// Up to which number they are simulated.
+    pub of: usize,
+    /// What it took so far.
+    pub work: YearWork,
 }
 
 /// What a run took.

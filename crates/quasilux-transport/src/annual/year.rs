@@ -11,6 +11,7 @@ use quasilux_scene::{Environment, Rgb, Scene};
 use quasilux_sky::{Distribution, Sky, SkyLevel, WeatherSky};
 use rayon::prelude::*;
 use std::f64::consts::PI;
+use std::ops::Range;
 
 /// Points of a block: with 16 replicates they take some tens of megabytes.
 const BLOCK: usize = 64;
@@ -33,7 +34,11 @@ pub struct ClosedHours<'h> {
     pub is_closed: &'h [bool],
 }
 
-/// Simulates hours for all sensor points of a scene, with daylight alone: its lights are off.
+/// Simulates hours for sensor points of a scene, with daylight alone: its lights are off.
+///
+/// `points` are numbered through all sensors, and those behind the last do not count. What a point
+/// gets does not depend on which others are simulated with it, so that a year can be spread and put
+/// together again.
 ///
 /// `scene.environment` says where north is, what the ground reflects and where the openings are;
 /// its sky and its sun do not count. Each point gets paths until the root mean square over the
@@ -47,6 +52,7 @@ pub struct ClosedHours<'h> {
 pub fn simulate_year<T: Send>(
     scene: &Scene,
     hours: YearHours<'_>,
+    points: Range<usize>,
     settings: &Settings,
     progress: &mut dyn FnMut(YearProgress) -> Control,
     digest: impl Fn(PointOfYear) -> T + Sync,
@@ -59,9 +65,9 @@ pub fn simulate_year<T: Send>(
     let room = Room { environment, open: &open, closed: closed_scene.as_ref() };
     let hours = YearHours { closed, ..hours };
     if is_grey(&open) && closed_scene.as_ref().is_none_or(is_grey) {
-        run::<f64, T>(room, hours, settings, progress, digest, keep)
+        run::<f64, T>(room, hours, points, settings, progress, digest, keep)
     } else {
-        run::<Rgb, T>(room, hours, settings, progress, digest, keep)
+        run::<Rgb, T>(room, hours, points, settings, progress, digest, keep)
     }
 }
 
@@ -86,6 +92,7 @@ struct Room<'r> {
 fn run<S: Spectrum, T: Send>(
     room: Room<'_>,
     hours: YearHours<'_>,
+    points: Range<usize>,
     settings: &Settings,
     progress: &mut dyn FnMut(YearProgress) -> Control,
     digest: impl Fn(PointOfYear) -> T + Sync,
@@ -96,6 +103,7 @@ fn run<S: Spectrum, T: Send>(
     let is_closed = closed_hours.map_or(vec![false; skies.len()], |it| it.is_closed.to_vec());
     let is_open: Vec<bool> = is_closed.iter().map(|is_closed| !is_closed).collect();
     let targets = targets(open);
+    let points = points.start.min(targets.len())..points.end.min(targets.len());
     let [open, closed] =
         [Some(open), closed].map(|it| it.map(|it| Context::<S>::new(it, settings)));
     let of_open = StateHours { environment, skies, is_own: &is_open, has_sun_of_all: true };
@@ -103,9 +111,9 @@ fn run<S: Spectrum, T: Send>(
     let open = open.as_ref().map(|context| State::new(context, of_open, settings, &targets));
     let closed = closed.as_ref().map(|context| State::new(context, of_closed, settings, &targets));
     let states: Vec<State<'_, S>> = open.into_iter().chain(closed).collect();
-    let mut work = YearWork::default();
-    for (block, own) in targets.chunks(BLOCK).enumerate() {
-        let first = BLOCK * block;
+    let mut work = YearWork { is_complete: points.is_empty(), ..YearWork::default() };
+    for first in points.clone().step_by(BLOCK) {
+        let own = &targets[first..(first + BLOCK).min(points.end)];
         let blank = |number| PointOfYear::blank(first + number, settings, skies.len());
         let mut years: Vec<PointOfYear> = (0..own.len()).map(blank).collect();
         for state in &states {
@@ -115,9 +123,8 @@ fn run<S: Spectrum, T: Send>(
         let kept: Vec<T> = years.into_par_iter().map(&digest).collect();
         kept.into_iter().for_each(&mut keep);
         let over = first + own.len();
-        let at = YearProgress { points: [over, targets.len()], rays: work.rays };
-        work.is_complete = over == targets.len();
-        if progress(at) == Control::Stop {
+        work.is_complete = over == points.end;
+        if progress(YearProgress { over, of: points.end, work }) == Control::Stop {
             break;
         }
     }

@@ -49,7 +49,8 @@ fn year(scene: &Scene, hours: &[WeatherSky], settings: &Settings) -> Vec<PointOf
 fn year_with_blinds(scene: &Scene, hours: YearHours<'_>, settings: &Settings) -> Vec<PointOfYear> {
     let mut all = Vec::new();
     let mut go_on = |_| Control::Continue;
-    simulate_year(scene, hours, settings, &mut go_on, |point| point, |point| all.push(point));
+    let points = 0..usize::MAX;
+    simulate_year(scene, hours, points, settings, &mut go_on, |it| it, |it| all.push(it));
     all
 }
 

@@ -1,6 +1,7 @@
 //! What can be said to `quasilux annual`.
 
 use super::OutputArguments;
+use super::parts::{Slice, slice};
 use super::values::{hours_of_day, illuminance, level, share, whole};
 use clap::Args;
 use std::ops::Range;
@@ -31,6 +32,14 @@ pub(crate) struct AnnualArguments {
     /// Seed of all randomisations [default: the project's, or else 1]
     #[arg(long, value_name = "N", value_parser = whole::<u64>(0..=u64::MAX))]
     pub(crate) seed: Option<u64>,
+    /// Keep the year in this file while it goes, for `resume` and `merge`
+    #[arg(long, value_name = "FILE")]
+    pub(crate) checkpoint: Option<PathBuf>,
+    /// Simulate part k of n of the sensor points alone, k from 0 to n - 1, and write no results but
+    /// the checkpoint, which `merge` puts together with the others
+    #[arg(long, value_name = "k/n", value_parser = slice, requires = "checkpoint",
+        conflicts_with_all = ["out", "json"])]
+    pub(crate) shard: Option<Slice>,
     #[command(flatten)]
     pub(crate) output: OutputArguments,
 }

@@ -81,7 +81,7 @@ pub(crate) struct ShardArguments {
 
 #[derive(Debug, Args)]
 pub(crate) struct MergeArguments {
-    /// The parts, in any order
+    /// The parts of a run or of a year, in any order
     #[arg(required = true, value_name = "PART")]
     pub(crate) parts: Vec<PathBuf>,
     /// The project file [default: where the plan was made]
@@ -96,7 +96,7 @@ pub(crate) struct MergeArguments {
 #[derive(Debug, Args)]
 #[command(mut_arg("out", |out| out.help("Folder for the results [default: the run's]")))]
 pub(crate) struct ResumeArguments {
-    /// The checkpoint; the run goes on keeping itself there
+    /// The checkpoint of a run or a year, which goes on keeping itself there
     pub(crate) checkpoint: PathBuf,
     /// The project file [default: where the run was started]
     #[arg(long, value_name = "FILE")]
@@ -130,7 +130,7 @@ impl Slice {
 }
 
 /// k/n with k from 0 to n - 1, as Slurm's arrays and Kubernetes' indexed jobs count.
-fn slice(text: &str) -> Result<Slice, String> {
+pub(super) fn slice(text: &str) -> Result<Slice, String> {
     let numbers = text.split_once('/').and_then(|(number, of)| {
         Some(Slice { number: number.trim().parse().ok()?, of: of.trim().parse().ok()? })
     });

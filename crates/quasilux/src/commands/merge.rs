@@ -1,5 +1,6 @@
 //! `quasilux merge`: the parts of a run become its result.
 
+use super::annual::merge_years;
 use super::run::{Folder, count, work};
 use crate::arguments::MergeArguments;
 use crate::door::Door;
@@ -7,11 +8,14 @@ use crate::exit::{CliError, Exit};
 use crate::forecast::Forecast;
 use crate::plan::{Part, in_order};
 use crate::watcher::Watcher;
-use crate::{interrupt, project};
+use crate::{interrupt, project, year_file};
 use quasilux_transport::{MergeError, PreparedScene};
 
 /// Puts parts together and writes the results of the run.
 pub(crate) fn merge(arguments: &MergeArguments) -> Result<Exit, CliError> {
+    if arguments.parts.iter().any(|path| year_file::is_year(path)) {
+        return merge_years(arguments);
+    }
     interrupt::listen()?;
     let parts: Result<Vec<Part>, CliError> =
         arguments.parts.iter().map(|path| Part::read(path)).collect();

@@ -28,7 +28,7 @@ pub(crate) use merge::merge;
 pub(crate) use photometry::photometry;
 pub(crate) use plan::plan;
 pub(crate) use points::points;
-pub(crate) use resume::{KeptRun, project_file, resume};
+pub(crate) use resume::{KeptRun, resume};
 pub use run::Finished;
 pub(crate) use run::{Folder, Job, count, pool, run, work};
 pub(crate) use shard::shard;

@@ -1,5 +1,6 @@
 //! `quasilux resume`: a run goes on from its checkpoint.
 
+use super::annual::resume_year;
 use super::run::{Finished, Folder, count, work};
 use crate::arguments::ResumeArguments;
 use crate::checkpoint::{self, Checkpoint, CheckpointWriter, Heading, Latest, RunPaths};
@@ -9,7 +10,7 @@ use crate::forecast::Forecast;
 use crate::print::tell;
 use crate::project::Project;
 use crate::watcher::{Listener, Watcher};
-use crate::{interrupt, project};
+use crate::{interrupt, project, year_file};
 use quasilux_transport::{PreparedScene, Settings};
 use std::path::{Path, PathBuf};
 
@@ -28,12 +29,15 @@ pub(crate) struct KeptRun<'a> {
 
 /// Goes on with a run, and ends with the bits that it would have had.
 pub(crate) fn resume(arguments: &ResumeArguments) -> Result<Exit, CliError> {
+    if year_file::is_year(&arguments.checkpoint) {
+        return resume_year(arguments);
+    }
     interrupt::listen()?;
     let latest = checkpoint::read(&arguments.checkpoint)?;
     if let (Some(warning), false) = (&latest.warning, arguments.output.quiet) {
         tell(format_args!("warning: {warning}"));
     }
-    let file = project_file(arguments, &latest.checkpoint.heading)?;
+    let file = latest.checkpoint.heading.project_file(arguments)?;
     let project = project::open(&file)?;
     let kept = KeptRun::new(arguments, latest, file, &project)?;
     let folder = Folder::prepare(&arguments.output, kept.out().to_owned(), &project)?;
@@ -118,17 +122,4 @@ fn over(project: &Project) -> &'static str {
     } else {
         "its sensors had all their samples; its pictures are taken and its results written again"
     }
-}
-
-/// Where the project of this program's run is: as told, or as it was given to the run, here or
-/// there.
-pub(crate) fn project_file(
-    arguments: &ResumeArguments,
-    heading: &Heading,
-) -> Result<PathBuf, CliError> {
-    let name = arguments.checkpoint.display();
-    heading.expect_build().map_err(|what| CliError::in_file(name, None, what))?;
-    let known = [&heading.project, &heading.project_absolute];
-    let found = known.into_iter().find(|path| path.is_file()).unwrap_or(&heading.project);
-    Ok(arguments.project.clone().unwrap_or_else(|| found.clone()))
 }

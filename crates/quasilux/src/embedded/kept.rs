@@ -3,7 +3,7 @@
 use super::run::parse;
 use crate::arguments::{Command, ResumeArguments};
 use crate::checkpoint::{self, Latest};
-use crate::commands::{Finished, KeptRun, project_file};
+use crate::commands::{Finished, KeptRun};
 use crate::exit::CliError;
 use crate::project::Project;
 use crate::watcher::Listener;
@@ -31,7 +31,7 @@ impl ResumableRun {
             return Err(CliError::new("no run"));
         };
         let latest = checkpoint::read(&arguments.checkpoint)?;
-        let file = project_file(&arguments, &latest.checkpoint.heading)?;
+        let file = latest.checkpoint.heading.project_file(&arguments)?;
         Ok(Self { arguments, latest, file })
     }
 

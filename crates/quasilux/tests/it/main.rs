@@ -1,6 +1,7 @@
 //! The program from outside: arguments and files in; exit codes, messages and results out.
 
 mod annual;
+mod annual_kept;
 mod area;
 #[cfg(target_os = "linux")]
 mod attacks;

@@ -103,7 +103,8 @@ fn hours(known: &KnownScene, settings: &Settings) -> End {
     let year = YearHours { skies: &known.hours, closed: None };
     let mut points: Vec<PointOfYear> = Vec::new();
     let mut go_on = |_| Control::Continue;
-    simulate_year(&known.scene, year, settings, &mut go_on, |it| it, |it| points.push(it));
+    let (scene, all) = (&known.scene, 0..usize::MAX);
+    simulate_year(scene, year, all, settings, &mut go_on, |it| it, |it| points.push(it));
     let t = t_quantile_for(settings.replicates as usize, 1.0 - settings.confidence);
     let hours = known.hours.len();
     let of_hour = |point: &PointOfYear, hour: usize| {

@@ -1,0 +1,69 @@
+//! `quasilux annual`: the daylight of a year, hour by hour.
+//!
+//! Points come in blocks, from the simulation (`year`) or from what was kept of it (`kept`), and
+//! become the files of results (`sink`).
+
+mod kept;
+mod sink;
+mod year;
+
+use super::count;
+use crate::arguments::AnnualArguments;
+use crate::checkpoint::{Heading, RunPaths};
+use crate::exit::{CliError, Exit};
+use crate::year_file::{YearHeading, YearWriter};
+use crate::{interrupt, project};
+use kept::Keeper;
+pub(super) use kept::{merge_years, resume_year};
+use std::ops::Range;
+use std::path::Path;
+use year::Year;
+
+/// Simulates a year, or a part of it, writes its results and prints what was asked for.
+pub(crate) fn annual(arguments: &AnnualArguments) -> Result<Exit, CliError> {
+    interrupt::listen()?;
+    let file = &arguments.project;
+    let project = project::open(file)?;
+    let settings = project::annual_settings(&project, arguments)?;
+    let threads = count(arguments.threads);
+    let year = Year::new(&project, settings, &arguments.occupied, threads)?;
+    let points = points(arguments, year.points())?;
+    let folder = match &arguments.output.out {
+        Some(folder) => folder.clone(),
+        None => Path::new("out").join(file.file_stem().unwrap_or_default()),
+    };
+    let Some(path) = &arguments.checkpoint else {
+        return year.deliver(&folder, &arguments.output, |sink| {
+            year.simulate(points, &mut |block| sink.take(&block))
+        });
+    };
+    kept::expect_nothing_to_lose(path, file)?;
+    let heading = YearHeading {
+        run: Heading::new(&project, RunPaths { file, out: &folder, settings: &year.settings }),
+        occupied_h: arguments.occupied.clone(),
+        points: points.clone(),
+        of: year.points(),
+    };
+    let writer = YearWriter::begin(path, &heading);
+    let mut writer = writer.map_err(|error| kept::cannot_keep(path, &error))?;
+    if arguments.shard.is_some() {
+        return kept::simulate_part(&year, points, &mut writer, path, arguments.output.quiet);
+    }
+    let mut keeper = Keeper::new(path, writer);
+    year.deliver(&folder, &arguments.output, |sink| {
+        year.simulate(points, &mut |block| {
+            keeper.add(&block);
+            sink.take(&block)
+        })
+    })
+}
+
+/// The points that are asked for.
+fn points(arguments: &AnnualArguments, all: usize) -> Result<Range<usize>, CliError> {
+    let Some(slice) = arguments.shard else { return Ok(0..all) };
+    let Range { start, end } = slice.indices(all as u64);
+    if start == end {
+        return Err(CliError::new(format!("--shard: more parts than the {all} sensor points")));
+    }
+    Ok(start as usize..end as usize)
+}

@@ -1,0 +1,89 @@
+//! Where the points of a year go: into its report, and their hours into a file.
+
+use crate::exit::CliError;
+use crate::npy::NpyHeader;
+use crate::results;
+use crate::year_file::YearBlock;
+use quasilux_report::PictureOf;
+use quasilux_report::annual::{
+    AnnualReport, annual_csv, annual_json, annual_maps, hours_csv, hours_png,
+};
+use std::io::{self, Write};
+use std::path::Path;
+
+/// The hours of all points: by point, value and half-width, and interval of the weather file.
+pub(super) const HOURS_FILE: &str = "hours.npy";
+
+/// Takes the points of a year in their order.
+pub(super) struct Sink<'s, 'r> {
+    report: &'s mut AnnualReport<'r>,
+    hours: &'s mut (dyn Write + Send),
+    /// How many points there will be.
+    points: usize,
+}
+
+impl<'s, 'r> Sink<'s, 'r> {
+    /// Into a report without points and an empty file.
+    pub(super) fn begin(
+        report: &'s mut AnnualReport<'r>,
+        hours: &'s mut (dyn Write + Send),
+        points: usize,
+    ) -> io::Result<Self> {
+        let intervals = report.calendar.intervals.len();
+        hours.write_all(&NpyHeader { shape: &[points, 2, intervals] }.bytes())?;
+        Ok(Self { report, hours, points })
+    }
+
+    /// Takes the next points.
+    pub(super) fn take(&mut self, block: &YearBlock) -> Result<(), CliError> {
+        for point in &block.points {
+            let numbers = point.illuminance_lx.iter().chain(&point.half_width_lx);
+            let bytes: Vec<u8> = numbers.flat_map(|x| x.to_le_bytes()).collect();
+            let written = self.hours.write_all(&bytes);
+            written.map_err(|error| CliError::new(format!("cannot write results: {error}")))?;
+            self.report.push(point);
+        }
+        self.report.run.work.rays += block.took.rays;
+        self.report.run.work.paths += block.took.paths;
+        Ok(())
+    }
+
+    /// Time that points took before this program.
+    pub(super) fn add_seconds(&mut self, seconds: f64) {
+        self.report.run.seconds += seconds;
+    }
+
+    /// What was interrupted has not-a-numbers for the rest, so that the file is whole.
+    pub(super) fn end(self, is_complete: bool) -> io::Result<()> {
+        self.report.run.work.is_complete = is_complete;
+        let intervals = self.report.calendar.intervals.len();
+        for _ in self.report.points.len()..self.points {
+            let unknown = f32::NAN.to_le_bytes().repeat(2 * intervals);
+            self.hours.write_all(&unknown)?;
+        }
+        Ok(())
+    }
+}
+
+/// Writes what a report says.
+pub(super) fn write(report: &AnnualReport<'_>, folder: &Path, title: &str) -> Result<(), CliError> {
+    let write = |name: &str, bytes: &[u8]| results::write_atomic(&folder.join(name), bytes);
+    write("annual.json", annual_json(report).as_bytes())?;
+    write("hours.csv", hours_csv(report).as_bytes())?;
+    for (number, of) in report.sensors().enumerate() {
+        let name = &of.sensor.name;
+        write(&format!("{name}.annual.csv"), annual_csv(of).as_bytes())?;
+        if let Some(sheet) = report.equinox.csv(of.sensor, of.first, report.calendar) {
+            write(&format!("{name}.equinox.csv"), sheet.as_bytes())?;
+        }
+        if let Some(png) = hours_png(report, number, title) {
+            write(&format!("{name}.hours.png"), &png)?;
+        }
+    }
+    if report.run.work.is_complete {
+        for map in annual_maps(report, PictureOf { scene: report.scene, title }) {
+            write(&format!("{}.{}.png", map.sensor.name, map.measure.name()), &map.png)?;
+        }
+    }
+    Ok(())
+}

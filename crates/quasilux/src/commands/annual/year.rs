@@ -1,0 +1,202 @@
+//! A year of a project, ready to be simulated.
+
+#![allow(clippy::disallowed_methods, reason = "the command line reports how long a year took")]
+
+use super::super::pool;
+use super::sink::{HOURS_FILE, Sink, write};
+use crate::arguments::OutputArguments;
+use crate::build::VERSION;
+use crate::exit::{CliError, Exit};
+use crate::heartbeat::Heartbeat;
+use crate::interrupt;
+use crate::print::{print, tell};
+use crate::project::Project;
+use crate::results;
+use crate::year_file::{YearBlock, YearCost};
+use quasilux_report::annual::{
+    AnnualReport, AnnualRun, Calendar, Dimming, PointOfHours, Thresholds, annual_json,
+    annual_table, closed_hours, sun_hours,
+};
+use quasilux_scene::{Blinds, Sensor};
+use quasilux_sky::Weather;
+use quasilux_transport::{
+    ClosedHours, Control, PointOfYear, Settings, YearHours, YearProgress, YearWork, simulate_year,
+};
+use rayon::ThreadPool;
+use std::cell::RefCell;
+use std::io;
+use std::ops::Range;
+use std::path::Path;
+use std::time::Instant;
+
+/// A year of a project.
+pub(super) struct Year<'p> {
+    project: &'p Project,
+    weather: &'p Weather,
+    calendar: Calendar,
+    pub(super) settings: Settings,
+    occupied_h: Range<f64>,
+    /// Electric light without any daylight yet.
+    dimming: Option<Dimming>,
+    threads: usize,
+    pool: ThreadPool,
+    /// When blinds are closed, by hour of those with light.
+    is_closed: Option<Vec<bool>>,
+}
+
+/// Where blocks go.
+pub(super) type Keep<'k> = dyn FnMut(YearBlock) -> Result<(), CliError> + Send + 'k;
+
+impl<'p> Year<'p> {
+    pub(super) fn new(
+        project: &'p Project,
+        settings: Settings,
+        occupied_h: &Range<f64>,
+        threads: usize,
+    ) -> Result<Self, CliError> {
+        let weather = weather(project)?;
+        let calendar = Calendar::new(weather, occupied_h).map_err(CliError::new)?;
+        let loaded = &project.loaded;
+        let (scene, pool) = (&loaded.scene, pool(threads)?);
+        let is_closed = loaded
+            .blinds
+            .as_ref()
+            .map(|blinds| pool.install(|| closed_hours(blinds, scene, &calendar, &settings)));
+        Ok(Self {
+            project,
+            weather,
+            calendar,
+            settings,
+            occupied_h: occupied_h.clone(),
+            dimming: loaded.electric_light.map(|light| Dimming::begin(light, scene)),
+            threads,
+            pool,
+            is_closed,
+        })
+    }
+
+    /// How many points there are, through all sensors.
+    pub(super) fn points(&self) -> usize {
+        self.project.loaded.scene.sensors.iter().map(Sensor::len).sum()
+    }
+
+    /// Whether a point with this number has the hours that it is to have.
+    pub(super) fn has_hours_of(&self, number: usize, point: &PointOfHours) -> bool {
+        let is_dimmed = self.dimming.as_ref().is_some_and(|it| it.looks_at(number));
+        point.fits(&self.calendar, is_dimmed)
+    }
+
+    /// Simulates some points, block by block; the result says whether all are over.
+    pub(super) fn simulate(
+        &self,
+        points: Range<usize>,
+        keep: &mut Keep<'_>,
+    ) -> Result<bool, CliError> {
+        let loaded = &self.project.loaded;
+        let closed = loaded.blinds.as_ref().zip(self.is_closed.as_deref());
+        let closed = closed
+            .map(|(Blinds { closed: scene, .. }, is_closed)| ClosedHours { scene, is_closed });
+        let hours = YearHours { skies: &self.calendar.skies, closed };
+        let (thresholds, confidence) = (Thresholds::default(), self.settings.confidence);
+        let digest = |point: PointOfYear| {
+            let is_dimmed = self.dimming.as_ref().is_some_and(|it| it.looks_at(point.number));
+            let point = PointOfHours::new(point, &self.calendar, &thresholds, confidence);
+            if is_dimmed { point } else { point.slimmed() }
+        };
+        let signs_of_life = Heartbeat::new("simulating a year");
+        let mut kept = Ok(());
+        let work = self.pool.install(|| {
+            let mut begin = Instant::now();
+            let mut before = YearWork::default();
+            let block = RefCell::new(Vec::new());
+            let mut progress = |YearProgress { over, of, work }: YearProgress| {
+                signs_of_life.set(&format!("simulating a year: {over} of {of} points"));
+                let took = YearCost {
+                    rays: work.rays - before.rays,
+                    paths: work.paths - before.paths,
+                    seconds: begin.elapsed().as_secs_f64(),
+                };
+                (before, begin) = (work, Instant::now());
+                kept = keep(YearBlock { took, points: block.take() });
+                let goes_on = kept.is_ok() && !interrupt::requested();
+                if goes_on { Control::Continue } else { Control::Stop }
+            };
+            let collect = |point| block.borrow_mut().push(point);
+            let (scene, settings) = (&loaded.scene, &self.settings);
+            simulate_year(scene, hours, points, settings, &mut progress, digest, collect)
+        });
+        kept.map(|()| work.is_complete)
+    }
+
+    /// Makes results of the points that `fill` brings, writes them and prints what was asked for;
+    /// `fill` says whether there are all.
+    pub(super) fn deliver(
+        &self,
+        folder: &Path,
+        output: &OutputArguments,
+        fill: impl FnOnce(&mut Sink<'_, '_>) -> Result<bool, CliError>,
+    ) -> Result<Exit, CliError> {
+        results::prepare(folder)?;
+        let begin = Instant::now();
+        let mut report = self.report()?;
+        let mut failure = None;
+        let written = results::stream_atomic(&folder.join(HOURS_FILE), |file| {
+            let mut sink = Sink::begin(&mut report, file, self.points())?;
+            match fill(&mut sink) {
+                Ok(is_complete) => sink.end(is_complete),
+                Err(error) => {
+                    failure = Some(error);
+                    Err(io::ErrorKind::Other.into())
+                }
+            }
+        });
+        failure.map_or(written, Err)?;
+        report.run.seconds += begin.elapsed().as_secs_f64();
+        write(&report, folder, self.project.title())?;
+        let warnings = &self.project.loaded.warnings;
+        if output.json {
+            warnings.iter().for_each(|warning| tell(format_args!("warning: {warning}")));
+            print(&annual_json(&report))?;
+        } else if !output.quiet {
+            print(&annual_table(&report))?;
+            print(&format!("results in {}\n", folder.display()))?;
+        }
+        Ok(match report.run.work.is_complete {
+            false => Exit::Interrupted,
+            true if report.is_done() => Exit::Done,
+            true => Exit::Limited,
+        })
+    }
+
+    /// A report without points.
+    fn report(&self) -> Result<AnnualReport<'_>, CliError> {
+        let scene = &self.project.loaded.scene;
+        let run = AnnualRun {
+            version: VERSION.to_owned(),
+            scene_sha256: self.project.identity.sha256.clone(),
+            seconds: 0.0,
+            threads: self.threads,
+            settings: self.settings.clone(),
+            work: YearWork::default(),
+            warnings: self.project.loaded.warnings.iter().map(ToString::to_string).collect(),
+        };
+        let occupied_h = self.occupied_h.clone();
+        let mut report = AnnualReport::begin(scene, self.weather, &self.calendar, occupied_h, run);
+        report.dimming.clone_from(&self.dimming);
+        report.closed.clone_from(&self.is_closed);
+        let look = || sun_hours(scene, &self.calendar, &report.site, &report.run.settings);
+        report.sun_hours = self.pool.install(look).map_err(CliError::new)?;
+        Ok(report)
+    }
+}
+
+/// The weather of a project that can have a year.
+fn weather(project: &Project) -> Result<&Weather, CliError> {
+    let error = |message: &str| CliError::in_file(&project.name, None, message);
+    let scene = &project.loaded.scene;
+    if scene.sensors.is_empty() {
+        return Err(error("no sensors; expected at least one [[sensors]] for a year"));
+    }
+    let expected = "no weather; expected [weather] with file, an EPW or WEA file";
+    scene.weather.as_ref().ok_or_else(|| error(expected))
+}
