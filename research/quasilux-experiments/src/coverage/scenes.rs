@@ -88,7 +88,7 @@ fn panel() -> KnownScene {
         hours: Vec::new(),
         truth_lx,
         estimator: EstimatorKind::Path,
-        rel_tol: [0.007, 0.01],
+        rel_tol: [0.0012, 0.003],
     }
 }
 
@@ -113,7 +113,7 @@ fn mirror() -> KnownScene {
         hours: Vec::new(),
         truth_lx,
         estimator: EstimatorKind::Path,
-        rel_tol: [0.04, 0.04],
+        rel_tol: [0.0007, 0.003],
     }
 }
 
@@ -133,7 +133,7 @@ fn unequal() -> KnownScene {
     let with_image_lx = |(at, n)| panel_lx(at, n, &corners) + MIRROR * panel_lx(at, n, &image);
     let truth_lx = [beside.map(with_image_lx), above.map(direct_lx)].concat();
     let why = "the contour integral, at two of four points for the image as well";
-    let rel_tol = [0.02, 0.03];
+    let rel_tol = [0.0014, 0.0085];
     let hours = Vec::new();
     KnownScene {
         name: "unequal",
