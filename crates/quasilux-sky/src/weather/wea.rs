@@ -52,8 +52,9 @@ fn hour(row: &Row<'_>, units: WeatherUnits) -> Result<WeatherHour, ParseError> {
     let fields = row.by_blanks();
     let field = |n, what: &str| row.field(&fields, n, what);
     let [month, day] = date(&field(0, "a month")?, &field(1, "a day")?)?;
-    let what = "the middle of an hour, 0 to 24";
-    let hour = number(&field(2, what)?, 0.0..=24.0, what)?;
+    // 24 h is 0 h of the next day.
+    let what = "the middle of an hour, from 0 to before 24";
+    let hour = number(&field(2, what)?, 0.0..=24.0_f64.next_down(), what)?;
     let what = format!("direct and diffuse light, 0 to {}", units.most());
     let light = |token: Token<'_>| number(&token, 0.0..=units.most(), &what);
     let (direct, diffuse) = (light(field(3, &what)?)?, light(field(4, &what)?)?);

@@ -210,6 +210,7 @@ fn what_is_no_weather_is_refused_with_its_place() {
         (changed(",95,0,0\n", "\n"), [9, 0], "the diffuse horizontal radiation"),
         (WEA.replace("latitude", "lattitude"), [2, 1], "expected latitude"),
         (WEA.replace("units 1", "units 4"), [6, 25], "expected weather_data_file_units"),
+        (WEA.replace("11.500", "24.000"), [8, 6], "from 0 to before 24"),
         (WEA.replace("712.5", "-3"), [8, 13], "direct and diffuse light, 0 to 2000"),
         (WEA.replace(" 712.5 95", ""), [8, 12], "direct and diffuse light"),
     ];
