@@ -48,16 +48,17 @@ def _measure(options: argparse.Namespace) -> None:
     before = results.load(MEASURED) if MEASURED.exists() else None
     with tempfile.TemporaryDirectory() as folder:
         if options.only == "year" and before:
-            moments = before.moments
+            found = before
         else:
             effort = Effort(options.rel_tol, options.seconds)
             moments = contests.moments(options.binary, effort, Path(folder), _say)
-        found = Results(machine, moments, before and before.year)
+            year, year_machine = (before.year, before.year_machine) if before else (None, None)
+            found = Results(machine, moments, year, year_machine)
         results.save(found, MEASURED)
         if options.weather:
             contest = contests.YearContest(options.binary, options.weather.resolve(), _say)
             year = contest.run(options.rounds, options.years, Path(folder))
-            results.save(Results(machine, moments, year), MEASURED)
+            results.save(Results(found.machine, found.moments, year, machine), MEASURED)
 
 
 def _options() -> argparse.Namespace:

@@ -2,7 +2,7 @@
 
 from contest.markdown import document, table
 from outside.moments import Compared, Distance
-from outside.results import Results, YearResult
+from outside.results import Machine, Results, YearResult
 from outside.years import QUASILUX, RCONTRIB, Level, seconds_to
 
 HEAD = """# Daylight against Radiance
@@ -81,16 +81,20 @@ one. No number of divisions mends that. In the sums over the year it is {annual}
 
 def write(results: Results) -> str:
     """The whole page."""
-    machine = results.machine
-    measured = (
+    lit = [row for row in results.moments if row.quasilux_from_sums is None]
+    dark = [row for row in results.moments if row.quasilux_from_sums is not None]
+    parts = [HEAD, MOMENTS, _measured(results.machine), _moments(lit), BLACK, _black(dark), REASONS]
+    if results.year and results.year_machine:
+        parts += _year(results.year, _measured(results.year_machine))
+    return document(parts)
+
+
+def _measured(machine: Machine) -> str:
+    return (
         f"Measured {machine.date} on {machine.cores} cores of {machine.processor}; other work"
         f" made a load of {machine.load_before:.1f} before it began. quasilux {machine.quasilux},"
         f" Radiance {machine.radiance}.\n"
     )
-    lit = [row for row in results.moments if row.quasilux_from_sums is None]
-    dark = [row for row in results.moments if row.quasilux_from_sums is not None]
-    parts = [HEAD, measured, MOMENTS, _moments(lit), BLACK, _black(dark), REASONS]
-    return document([*parts, *(_year(results.year) if results.year else [])])
 
 
 def _moments(rows: list[Compared]) -> str:
@@ -126,7 +130,7 @@ def _share(apart: Distance) -> str:
     return f"{100 * apart.share:+.2f} ± {100 * apart.standard_error:.2f}"
 
 
-def _year(year: YearResult) -> list[str]:
+def _year(year: YearResult, measured: str) -> list[str]:
     between = year.between
     text = YEAR.format(
         place=year.place,
@@ -146,7 +150,7 @@ def _year(year: YearResult) -> list[str]:
     head += ["without sun, own", "without sun, other", "annual sum", "sDA"]
     figure = "![Error against time of a year](daylight/year.svg)\n"
     rows = [_level(level) for level in year.levels]
-    return [text, table(head, rows), figure, check, _ratios(year)]
+    return [text, measured, table(head, rows), figure, check, _ratios(year)]
 
 
 def _level(level: Level) -> list[str]:

@@ -41,8 +41,10 @@ class Results:
     """Moments, and a year where there was a weather file."""
 
     machine: Machine
+    """Of the moments."""
     moments: list[Compared]
     year: YearResult | None
+    year_machine: Machine | None
 
 
 def save(results: Results, path: Path) -> None:
@@ -56,7 +58,8 @@ def load(path: Path) -> Results:
     document = json.loads(path.read_text())
     year = document["year"] and _year(document["year"])
     moments = [_compared(it) for it in document["moments"]]
-    return Results(Machine(**document["machine"]), moments, year)
+    year_machine = document["year_machine"] and Machine(**document["year_machine"])
+    return Results(Machine(**document["machine"]), moments, year, year_machine)
 
 
 def _compared(document: dict) -> Compared:

@@ -66,7 +66,8 @@ class Files(unittest.TestCase):
     def test_what_is_saved_is_loaded(self) -> None:
         level = _level(4.0, 0.1)
         year = YearResult("Here", 2, 5, 3, 0.1, 0.1, 0.1, level.errors, [level])
-        saved = Results(Machine("p", 2, 0.5, "today", "1", "6"), [], year)
+        before = Machine("p", 2, 0.5, "yesterday", "1", "6")
+        saved = Results(before, [], year, Machine("p", 2, 0.0, "today", "1", "6"))
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "measured.json"
             results.save(saved, path)
