@@ -82,6 +82,7 @@ fn sky_and_ground_through_windows_are_integrals() {
 #[test]
 fn facades_are_externally_reflected() {
     let mut numbers = Numbers(23);
+    let mut compared = 0;
     for number in 0..6 {
         let Room { mut scene, window } = room_with_window(&mut numbers, 0.0);
         let mut environment = outside(&mut numbers);
@@ -98,16 +99,20 @@ fn facades_are_externally_reflected() {
         let sky = illuminances(&black, number + 200);
         for ((found, all), sky) in found.iter().zip(all).zip(sky) {
             let DaylightComponents { sky_lx, externally_reflected_lx: beyond } = found;
-            let known = |it: Interval| [it.value, it.half_width.unwrap_or(0.0)];
+            let known = |it: Interval| it.half_width.map(|half_width| [it.value, half_width]);
+            // Where few paths find the window, runs may have no interval.
+            let (Some(known_all), Some(known_sky)) = (known(all), known(sky)) else { continue };
+            compared += 1;
             let scale_lx = all.value.max(20.0);
-            assert_near(*sky_lx, known(sky), scale_lx, &format!("{number}, sky"));
+            assert_near(*sky_lx, known_sky, scale_lx, &format!("{number}, sky"));
             let both = Interval {
                 value: sky_lx.value + beyond.value,
                 half_width: sky_lx.half_width.zip(beyond.half_width).map(|(a, b)| a + b),
             };
-            assert_near(both, known(all), scale_lx, &format!("{number}, all"));
+            assert_near(both, known_all, scale_lx, &format!("{number}, all"));
         }
     }
+    assert!(compared >= 12, "{compared}");
 }
 
 /// Without openings there is no inside, and under lamps or in the sun no daylight factor.
