@@ -120,10 +120,7 @@ pub(in crate::commands) fn resume_year(arguments: &ResumeArguments) -> Result<Ex
     }
     let folder = arguments.output.out.as_deref().unwrap_or_else(|| heading.run.folder());
     year.deliver(folder, &arguments.output, |sink| {
-        let replayed = replay(&year, &mut reader, &mut |block| {
-            sink.add_seconds(block.took.seconds);
-            sink.take(&block)
-        })?;
+        let replayed = replay(&year, &mut reader, &mut |block| sink.take_kept(&block))?;
         let (next, writer) = go_on(reader, replayed)?;
         let mut keeper = Keeper::new(path, writer);
         year.simulate(next..heading.of, &mut |block| {
@@ -147,10 +144,7 @@ pub(in crate::commands) fn merge_years(arguments: &MergeArguments) -> Result<Exi
     let folder = arguments.output.out.as_deref().unwrap_or_else(|| heading.run.folder());
     year.deliver(folder, &arguments.output, |sink| {
         for mut reader in readers {
-            let replayed = replay(&year, &mut reader, &mut |block| {
-                sink.add_seconds(block.took.seconds);
-                sink.take(&block)
-            })?;
+            let replayed = replay(&year, &mut reader, &mut |block| sink.take_kept(&block))?;
             let (Range { end, .. }, Replayed { next, damage }) = (reader.heading.points, replayed);
             if let Some(damage) = damage {
                 return Err(damage);

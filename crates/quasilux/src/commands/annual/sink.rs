@@ -48,9 +48,10 @@ impl<'s, 'r> Sink<'s, 'r> {
         Ok(())
     }
 
-    /// Time that points took before this program.
-    pub(super) fn add_seconds(&mut self, seconds: f64) {
-        self.report.run.seconds += seconds;
+    /// Takes the next points, which took their time before this program.
+    pub(super) fn take_kept(&mut self, block: &YearBlock) -> Result<(), CliError> {
+        self.report.run.seconds += block.took.seconds;
+        self.take(block)
     }
 
     /// What was interrupted has not-a-numbers for the rest, so that the file is whole.

@@ -17,7 +17,7 @@ use quasilux_report::annual::{
     AnnualReport, AnnualRun, Calendar, Dimming, PointOfHours, Thresholds, annual_json,
     annual_table, closed_hours, sun_hours,
 };
-use quasilux_scene::{Blinds, Sensor};
+use quasilux_scene::{Blinds, Loaded, Sensor};
 use quasilux_sky::Weather;
 use quasilux_transport::{
     ClosedHours, Control, PointOfYear, Settings, YearHours, YearProgress, YearWork, simulate_year,
@@ -27,6 +27,7 @@ use std::cell::RefCell;
 use std::io;
 use std::ops::Range;
 use std::path::Path;
+use std::sync::OnceLock;
 use std::time::Instant;
 
 /// A year of a project.
@@ -40,8 +41,7 @@ pub(super) struct Year<'p> {
     dimming: Option<Dimming>,
     threads: usize,
     pool: ThreadPool,
-    /// When blinds are closed, by hour of those with light.
-    is_closed: Option<Vec<bool>>,
+    is_closed: OnceLock<Option<Vec<bool>>>,
 }
 
 /// Where blocks go.
@@ -57,21 +57,16 @@ impl<'p> Year<'p> {
         let weather = weather(project)?;
         let calendar = Calendar::new(weather, occupied_h).map_err(CliError::new)?;
         let loaded = &project.loaded;
-        let (scene, pool) = (&loaded.scene, pool(threads)?);
-        let is_closed = loaded
-            .blinds
-            .as_ref()
-            .map(|blinds| pool.install(|| closed_hours(blinds, scene, &calendar, &settings)));
         Ok(Self {
             project,
             weather,
             calendar,
             settings,
             occupied_h: occupied_h.clone(),
-            dimming: loaded.electric_light.map(|light| Dimming::begin(light, scene)),
+            dimming: loaded.electric_light.map(|light| Dimming::begin(light, &loaded.scene)),
             threads,
-            pool,
-            is_closed,
+            pool: pool(threads)?,
+            is_closed: OnceLock::new(),
         })
     }
 
@@ -82,8 +77,20 @@ impl<'p> Year<'p> {
 
     /// Whether a point with this number has the hours that it is to have.
     pub(super) fn has_hours_of(&self, number: usize, point: &PointOfHours) -> bool {
-        let is_dimmed = self.dimming.as_ref().is_some_and(|it| it.looks_at(number));
-        point.fits(&self.calendar, is_dimmed)
+        point.fits(&self.calendar, self.is_dimmed(number))
+    }
+
+    /// Whether electric light looks at a point, and so needs all of its replicates.
+    fn is_dimmed(&self, number: usize) -> bool {
+        self.dimming.as_ref().is_some_and(|dimming| dimming.looks_at(number))
+    }
+
+    /// When blinds are closed, by hour of those with light; found out when it is first asked for.
+    fn is_closed(&self) -> Option<&[bool]> {
+        let Loaded { scene, blinds, .. } = &self.project.loaded;
+        let find = |blinds| closed_hours(blinds, scene, &self.calendar, &self.settings);
+        let found = || blinds.as_ref().map(|blinds| self.pool.install(|| find(blinds)));
+        self.is_closed.get_or_init(found).as_deref()
     }
 
     /// Simulates some points, block by block; the result says whether all are over.
@@ -93,13 +100,13 @@ impl<'p> Year<'p> {
         keep: &mut Keep<'_>,
     ) -> Result<bool, CliError> {
         let loaded = &self.project.loaded;
-        let closed = loaded.blinds.as_ref().zip(self.is_closed.as_deref());
+        let closed = loaded.blinds.as_ref().zip(self.is_closed());
         let closed = closed
             .map(|(Blinds { closed: scene, .. }, is_closed)| ClosedHours { scene, is_closed });
         let hours = YearHours { skies: &self.calendar.skies, closed };
         let (thresholds, confidence) = (Thresholds::default(), self.settings.confidence);
         let digest = |point: PointOfYear| {
-            let is_dimmed = self.dimming.as_ref().is_some_and(|it| it.looks_at(point.number));
+            let is_dimmed = self.is_dimmed(point.number);
             let point = PointOfHours::new(point, &self.calendar, &thresholds, confidence);
             if is_dimmed { point } else { point.slimmed() }
         };
@@ -183,7 +190,7 @@ impl<'p> Year<'p> {
         let occupied_h = self.occupied_h.clone();
         let mut report = AnnualReport::begin(scene, self.weather, &self.calendar, occupied_h, run);
         report.dimming.clone_from(&self.dimming);
-        report.closed.clone_from(&self.is_closed);
+        report.closed = self.is_closed().map(<[bool]>::to_vec);
         let look = || sun_hours(scene, &self.calendar, &report.site, &report.run.settings);
         report.sun_hours = self.pool.install(look).map_err(CliError::new)?;
         Ok(report)
