@@ -7,7 +7,7 @@ mod kept;
 mod sink;
 mod year;
 
-use super::count;
+use super::{Folder, count};
 use crate::arguments::AnnualArguments;
 use crate::checkpoint::{Heading, RunPaths};
 use crate::exit::{CliError, Exit};
@@ -16,7 +16,6 @@ use crate::{interrupt, project};
 use kept::Keeper;
 pub(super) use kept::{merge_years, resume_year};
 use std::ops::Range;
-use std::path::Path;
 use year::Year;
 
 /// Simulates a year, or a part of it, writes its results and prints what was asked for.
@@ -28,10 +27,7 @@ pub(crate) fn annual(arguments: &AnnualArguments) -> Result<Exit, CliError> {
     let threads = count(arguments.threads);
     let year = Year::new(&project, settings, &arguments.occupied, threads)?;
     let points = points(arguments, year.points())?;
-    let folder = match &arguments.output.out {
-        Some(folder) => folder.clone(),
-        None => Path::new("out").join(file.file_stem().unwrap_or_default()),
-    };
+    let folder = arguments.output.out.clone().unwrap_or_else(|| Folder::by_name(file));
     let Some(path) = &arguments.checkpoint else {
         return year.deliver(&folder, &arguments.output, |sink| {
             year.simulate(points, &mut |block| sink.take(&block))

@@ -2,10 +2,10 @@
 
 #![allow(clippy::disallowed_methods, reason = "the command line reports how long a year took")]
 
-use super::super::pool;
 use super::sink::{HOURS_FILE, Sink, write};
 use crate::arguments::OutputArguments;
 use crate::build::VERSION;
+use crate::commands::pool;
 use crate::exit::{CliError, Exit};
 use crate::heartbeat::Heartbeat;
 use crate::interrupt;
