@@ -108,6 +108,9 @@ fn parts_make_the_same_year_in_any_order() {
     assert_eq!(done.code, Some(3), "{}", done.stderr);
     assert!(parsed(&done.stdout)["complete"].as_bool().unwrap());
     expect_the_same(&folder, "one");
+    let again = folder.quasilux(&["resume", "1.year"]);
+    assert_eq!(again.code, Some(0), "{}", again.stderr);
+    assert!(again.stderr.contains("points 37 to 74 of 150 in 1.year"), "{}", again.stderr);
     let other = ["--shard", "1/4", "--checkpoint", "other.year", "--seed", "2"];
     simulate(&folder, &other, 0);
     let bytes = fs::read(folder.path("1.year")).unwrap();

@@ -70,17 +70,18 @@ pub(super) fn cannot_keep(path: &Path, error: &io::Error) -> CliError {
     CliError::in_file(path.display(), None, format!("cannot keep the year: {error}"))
 }
 
-/// Simulates points that are a part of a year, and keeps them.
+/// Simulates a part of a year from a point on, and keeps it.
 pub(super) fn simulate_part(
     year: &Year<'_>,
-    points: Range<usize>,
+    part: &Range<usize>,
+    next: usize,
     writer: &mut YearWriter,
     path: &Path,
     quiet: bool,
 ) -> Result<Exit, CliError> {
-    let Range { start, end } = points;
+    let Range { start, end } = *part;
     let name = path.display();
-    let is_complete = year.simulate(start..end, &mut |block| {
+    let is_complete = year.simulate(next..end, &mut |block| {
         writer.add(&block).map_err(|error| cannot_keep(path, &error))
     })?;
     if !is_complete {
@@ -116,7 +117,7 @@ pub(in crate::commands) fn resume_year(arguments: &ResumeArguments) -> Result<Ex
     if heading.points != (0..heading.of) {
         let replayed = replay(&year, &mut reader, &mut |_| Ok(()))?;
         let (next, mut writer) = go_on(reader, replayed)?;
-        return simulate_part(&year, next..heading.points.end, &mut writer, path, quiet);
+        return simulate_part(&year, &heading.points, next, &mut writer, path, quiet);
     }
     let folder = arguments.output.out.as_deref().unwrap_or_else(|| heading.run.folder());
     year.deliver(folder, &arguments.output, |sink| {

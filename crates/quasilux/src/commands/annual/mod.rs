@@ -43,7 +43,8 @@ pub(crate) fn annual(arguments: &AnnualArguments) -> Result<Exit, CliError> {
     let writer = YearWriter::begin(path, &heading);
     let mut writer = writer.map_err(|error| kept::cannot_keep(path, &error))?;
     if arguments.shard.is_some() {
-        return kept::simulate_part(&year, points, &mut writer, path, arguments.output.quiet);
+        let quiet = arguments.output.quiet;
+        return kept::simulate_part(&year, &points, points.start, &mut writer, path, quiet);
     }
     let mut keeper = Keeper::new(path, writer);
     year.deliver(&folder, &arguments.output, |sink| {

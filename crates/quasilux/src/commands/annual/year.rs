@@ -99,6 +99,9 @@ impl<'p> Year<'p> {
         points: Range<usize>,
         keep: &mut Keep<'_>,
     ) -> Result<bool, CliError> {
+        if points.is_empty() {
+            return Ok(true);
+        }
         let loaded = &self.project.loaded;
         let closed = loaded.blinds.as_ref().zip(self.is_closed());
         let closed = closed
