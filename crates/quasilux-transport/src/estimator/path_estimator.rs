@@ -32,6 +32,7 @@ use crate::stats::tally::{Quantum, Sum};
 use crate::stats::targets::{Target, by_sensor, targets};
 use crate::stats::watch::Watch;
 use quasilux_scene::Scene;
+use resolved::samples_direct;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
@@ -484,15 +485,4 @@ impl<S: Spectrum> Estimator for PathEstimator<'_, S> {
         let powers = (affordable + 1).next_power_of_two() / 2;
         powers.clamp(1, FIRST_SAMPLES)
     }
-}
-
-/// Whether light whose direct part is sampled may come straight to a target: not to one with all
-/// such luminaires behind it.
-fn samples_direct<S: Spectrum>(context: &Context<'_, S>, target: &Target) -> bool {
-    let luminaires = &context.lights.area_luminaires;
-    context.lights.emitters.is_some()
-        || match *target {
-            Target::Point { position, normal } => luminaires.may_light(position, normal),
-            Target::Cell { .. } => !luminaires.is_empty(),
-        }
 }

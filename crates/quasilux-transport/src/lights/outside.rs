@@ -39,6 +39,10 @@ use std::f64::consts::{FRAC_1_PI, TAU};
 /// What a cosine counts at least: openings reach further than their centres.
 const MIN_COSINE: f64 = 0.1;
 
+/// What what is outside counts at least, over a sky as bright everywhere: openings show more than
+/// lies behind their centres.
+const MIN_LUMINANCE: f64 = 0.1;
+
 /// Of a portal that a place lies in, but for this part of the way to its corners, it sees nothing:
 /// rounding alone would say on which side it is.
 const MIN_HEIGHT: f64 = 1e-6;
@@ -76,7 +80,7 @@ pub(crate) struct OnwardDirection {
     pub(crate) weight: f64,
 }
 
-/// All portals as a place chooses among them, in their order; `None` for those edge-on.
+/// All portals as a place chooses among them, in their order; `None` for those edge-on or behind.
 struct SeenPortals {
     portals: Vec<Option<Seen>>,
     /// The sum of the weights.
@@ -121,6 +125,12 @@ impl<'a> OutsideLight<'a> {
     pub(super) fn reference_lx(&self) -> f64 {
         let of_sun = self.sun.as_ref().map_or(0.0, |sun| sun.normal_illuminance_lx);
         self.environment.horizontal_illuminance_lx() + of_sun
+    }
+
+    /// Whether its light may come straight to a place, were nothing in the way: where there are
+    /// openings, through them.
+    pub(crate) fn may_light(&self, place: Asking) -> bool {
+        !self.has_portals() || self.seen(place).total > 0.0
     }
 
     /// Whether places ask for its light, through openings or in bright pixels.
@@ -193,7 +203,7 @@ impl<'a> OutsideLight<'a> {
         if pdf_sr <= 0.0 {
             return None;
         }
-        let beside_sr = mixed(onward_share, pdf_sr, vertex.pdf_sr(direction));
+        let beside_sr = mixed(seen.share(onward_share), pdf_sr, vertex.pdf_sr(direction));
         let lx_sr = self.luminance_cd_m2(direction) * cos;
         let illuminance_lx = lx_sr / (pdf_sr + beside_sr * (beside_sr / pdf_sr));
         let light = vertex.weight(direction) * illuminance_lx;
@@ -224,15 +234,16 @@ impl<'a> OutsideLight<'a> {
         u: [f64; 2],
     ) -> Option<OnwardDirection> {
         let seen = self.seen(place);
-        let direction = if u[0] < onward_share {
-            self.sample_direction(&seen, place, [u[0] / onward_share, u[1]])?
+        let share = seen.share(onward_share);
+        let direction = if u[0] < share {
+            self.sample_direction(&seen, place, [u[0] / share, u[1]])?
         } else {
-            let u = [(u[0] - onward_share) / (1.0 - onward_share), u[1]];
+            let u = [(u[0] - share) / (1.0 - share), u[1]];
             Frame::around(n).to_world(DVec3::from_array(sample_cosine_hemisphere(u)))
         };
         let cos = n.dot(direction).max(0.0);
         let asked_sr = self.pdf_of(&seen, place, direction);
-        let pdf_sr = mixed(onward_share, asked_sr, cos * FRAC_1_PI);
+        let pdf_sr = mixed(share, asked_sr, cos * FRAC_1_PI);
         (cos > 0.0).then_some(OnwardDirection { direction, pdf_sr, weight: cos / pdf_sr })
     }
 
@@ -287,6 +298,10 @@ impl<'a> OutsideLight<'a> {
 
     fn seen_portal(&self, portal: &Portal, place: Asking) -> Option<Seen> {
         let corners = portal.corners.points();
+        let is_behind = |n: DVec3| corners.iter().all(|it| n.dot(*it - place.position) <= 0.0);
+        if place.side.is_some_and(is_behind) {
+            return None;
+        }
         let [a, b, c] = corners;
         let height_m = portal.n.dot(place.position - a);
         let far_m = corners.map(|corner| corner.distance(place.position));
@@ -297,7 +312,9 @@ impl<'a> OutsideLight<'a> {
         let triangle = SeenTriangle::new(corners, side * portal.n, place.position)?;
         let towards = ((a + b + c) / 3.0 - place.position).normalize_or_zero();
         let cos = place.side.map_or(1.0, |n| n.dot(towards).max(0.0) + MIN_COSINE);
-        let weight = triangle.solid_angle_sr() * cos * self.luminance_cd_m2(towards);
+        let even_cd_m2 = self.environment.horizontal_illuminance_lx() * FRAC_1_PI;
+        let cd_m2 = self.luminance_cd_m2(towards).max(MIN_LUMINANCE * even_cd_m2);
+        let weight = triangle.solid_angle_sr() * cos * cd_m2;
         Some(Seen { triangle, weight })
     }
 
@@ -324,6 +341,13 @@ impl<'a> OutsideLight<'a> {
         };
         let all = self.portals.iter().zip(&seen.portals);
         all.filter_map(of_portal).sum::<f64>() / seen.total
+    }
+}
+
+impl SeenPortals {
+    /// The share of paths that go on through portals: none where none are seen.
+    fn share(&self, onward_share: f64) -> f64 {
+        if self.total > 0.0 { onward_share } else { 0.0 }
     }
 }
 

@@ -45,14 +45,6 @@ pub(crate) struct DaylightSearch<'p> {
     pub(crate) only_from_beyond: bool,
 }
 
-impl DaylightSearch<'_> {
-    /// The share of paths that leave their start as if they asked for light from outside: the most
-    /// where all others end at once, but for those through openings that are not known.
-    pub(crate) fn onward_share(&self) -> f64 {
-        if self.only_from_beyond { 0.75 } else { 0.0 }
-    }
-}
-
 /// A path that keeps what it finds apart.
 #[derive(Clone, Debug)]
 pub(crate) struct Daylight<'p> {

@@ -81,7 +81,7 @@ pub(crate) struct Path<'p, S> {
     from: RayOrigin,
     /// Unit direction in which it goes on.
     direction: DVec3,
-    /// The density in sr^-1 that the direction was drawn with; `None` where no other could be.
+    /// Density in sr^-1 of the direction as its vertex scatters; `None` where no other could be.
     pdf_sr: Option<f64>,
     /// Where it last asked for the light of area lights.
     asked_from: Option<Asking>,
@@ -161,7 +161,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
         let (direction, pdf_sr, beta) = match measurement {
             Measurement::Illuminance { n, .. } => {
                 let u = context.draw(&mut sampler, Purpose::FirstDirection, Sampler::next_2d);
-                let first = first_direction(context, from, n, daylight, u);
+                let first = first_direction(context, from, n, daylight.as_ref(), u);
                 (first.direction, Some(first.pdf_sr), S::white() * first.weight)
             }
             Measurement::Luminance { direction } => (direction, None, S::white()),
@@ -222,6 +222,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
         self.connect(context, &vertex, work);
         self.asked_outside =
             self.pdf_sr.and_then(|pdf_sr| AskedOutside::new(context, &vertex, pdf_sr, None));
+        self.pdf_sr = Some(vertex.pdf_sr(self.direction));
         self.specular_way = self.pdf_sr.and_then(|pdf_sr| self.specular_way(context, pdf_sr));
         let cos = n.dot(self.direction);
         self.subpath = self.subpath.map(|start| start.scattered(cos, cos * FRAC_1_PI, 0.0));

@@ -186,6 +186,11 @@ impl<S: Spectrum> World<S> {
         self.most_kept[facet.material as usize]
     }
 
+    /// Whether any material does not absorb all of it.
+    pub(crate) fn keeps_light(&self) -> bool {
+        self.most_kept.iter().any(|share| *share > 0.0)
+    }
+
     /// Luminance in cd/m^2 that the place emits toward the side it was hit from.
     pub(crate) fn emitted_cd_m2(&self, at: &Interaction) -> f64 {
         if at.front { self.facet(at).emitted_cd_m2 } else { 0.0 }

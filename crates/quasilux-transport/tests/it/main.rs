@@ -19,6 +19,7 @@ mod dozen_scenes;
 mod element_size;
 mod estimators;
 mod explain;
+mod facades;
 mod few;
 mod first_shot;
 mod free_points;

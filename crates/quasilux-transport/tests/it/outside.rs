@@ -26,6 +26,13 @@ pub(crate) fn clear_pane(cos: f64) -> f64 {
 pub(crate) struct Numbers(pub(crate) u64);
 
 impl Numbers {
+    /// Those of neighbours are unlike each other.
+    pub(crate) fn from_seed(seed: u64) -> Self {
+        let mut numbers = Self(seed);
+        (0..8).for_each(|_| _ = numbers.next());
+        numbers
+    }
+
     pub(crate) fn next(&mut self) -> f64 {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963);
         (self.0 >> 11) as f64 / (1_u64 << 53) as f64

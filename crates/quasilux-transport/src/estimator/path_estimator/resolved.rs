@@ -2,11 +2,14 @@
 //! a lobe, cannot.
 
 use super::PathEstimator;
+use crate::context::Context;
+use crate::lights::Asking;
 use crate::path::lobes::LobeSums;
 use crate::path::sections::PathScores;
 use crate::spectrum::Spectrum;
 use crate::stats::interval::Interval;
 use crate::stats::schedule::MIN_SAMPLES;
+use crate::stats::targets::Target;
 
 impl<S: Spectrum> PathEstimator<'_, S> {
     /// Whether too few paths of each target were where narrow lobes are bright.
@@ -69,5 +72,22 @@ impl<S: Spectrum> PathEstimator<'_, S> {
                     && (found_direct || found_indirect || !samples_direct)
             })
             .collect()
+    }
+}
+
+/// Whether light whose direct part is sampled may come straight to a target: not to one with all
+/// such luminaires and openings behind it. Of the sky that walls hide behind openings, nothing
+/// comes straight, but where walls may be bright themselves, more has to be seen than none of it.
+pub(super) fn samples_direct<S: Spectrum>(context: &Context<'_, S>, target: &Target) -> bool {
+    let Context { lights, world, .. } = context;
+    let outside = lights.outside.as_ref().filter(|_| world.keeps_light());
+    match *target {
+        _ if lights.emitters.is_some() => true,
+        Target::Point { position, normal } => {
+            let place = Asking { position, side: Some(normal), own: None };
+            lights.area_luminaires.may_light(position, normal)
+                || outside.is_some_and(|outside| outside.may_light(place))
+        }
+        Target::Cell { .. } => !lights.area_luminaires.is_empty() || outside.is_some(),
     }
 }

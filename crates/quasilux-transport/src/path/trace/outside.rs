@@ -6,7 +6,7 @@
 use super::{Onward, Path, PathWork};
 use crate::bsdf::{Bsdf, BsdfSample};
 use crate::context::Context;
-use crate::lights::{Asking, OnwardDirection, SunSample};
+use crate::lights::{Asking, OnwardDirection, OutsideLight, SunSample};
 use crate::path::daylight::{Daylight, DaylightSearch, Whence};
 use crate::purpose::Purpose;
 use crate::spectrum::Spectrum;
@@ -66,18 +66,37 @@ impl AskedOutside {
     }
 }
 
-/// The direction in which a path leaves a sensor point with the side `n`.
+/// The share of paths that leave their start through the openings, as if they asked there for light
+/// from outside. Of what shines back from beyond them, facades and reveals, cosine-distributed
+/// directions find little where openings are small; all others lose no more than this share.
+const SHARE_THROUGH_OPENINGS: f64 = 0.1;
+/// The same where paths seek nothing but what is beyond openings: the most, for they may be others
+/// than those that are known.
+const SHARE_OF_SEARCH: f64 = 0.75;
+
+/// The share of paths with that search that leave their start through openings.
+fn onward_share(outside: &OutsideLight<'_>, search: Option<&DaylightSearch<'_>>) -> f64 {
+    match search {
+        _ if !outside.has_portals() => 0.0,
+        Some(search) if search.only_from_beyond => SHARE_OF_SEARCH,
+        _ => SHARE_THROUGH_OPENINGS,
+    }
+}
+
+/// The direction in which a path leaves a sensor point with the side `n`. Its density counts for
+/// light from outside; where other light is weighed, the direction passes for cosine-distributed in
+/// all ways to find it, so that their weights still sum up to one.
 pub(super) fn first_direction<S: Spectrum>(
     context: &Context<'_, S>,
     from: RayOrigin,
     n: DVec3,
-    daylight: Option<DaylightSearch<'_>>,
+    search: Option<&DaylightSearch<'_>>,
     u: [f64; 2],
 ) -> OnwardDirection {
-    let share = daylight.map_or(0.0, |search| search.onward_share());
-    if let Some(outside) = context.lights.outside.as_ref().filter(|_| share > 0.0) {
+    if let Some(outside) = &context.lights.outside {
         let place = Asking::at(&Vertex::<S>::sensor(from, n));
         let nothing = OnwardDirection { direction: n, pdf_sr: 1.0, weight: 0.0 };
+        let share = onward_share(outside, search);
         return outside.sample_onward(place, n, share, u).unwrap_or(nothing);
     }
     let first = DVec3::from_array(sample_cosine_hemisphere(u));
@@ -99,9 +118,9 @@ impl<S: Spectrum> Path<'_, S> {
         if outside.is_asked_for() {
             let purpose = Purpose::Opening { surface };
             let u = context.draw(&mut self.sampler, purpose, Sampler::next_2d);
-            let share = self.daylight.as_ref().filter(|_| vertex.is_sensor());
-            let onward_share = share.map_or(0.0, |daylight| daylight.search.onward_share());
-            let sample = outside.light_sample(vertex, onward_share, u);
+            let search = self.daylight.as_ref().map(|daylight| &daylight.search);
+            let share = if vertex.is_sensor() { onward_share(outside, search) } else { 0.0 };
+            let sample = outside.light_sample(vertex, share, u);
             if let (Some(daylight), Some(sample)) = (&mut self.daylight, &sample) {
                 let whence = Whence::Outside(sample.direction);
                 daylight.note_asked(whence, vertex.reflects(sample.direction));
