@@ -68,7 +68,8 @@ impl AskedOutside {
 
 /// The share of paths that leave their start through the openings, as if they asked there for light
 /// from outside. Of what shines back from beyond them, facades and reveals, cosine-distributed
-/// directions find little where openings are small; all others lose no more than this share.
+/// directions find little where openings are small. All others lose no more than this share, and
+/// no contribution grows by more than a ninth.
 const SHARE_THROUGH_OPENINGS: f64 = 0.1;
 /// The same where paths seek nothing but what is beyond openings: the most, for they may be others
 /// than those that are known.
