@@ -96,6 +96,21 @@ impl Measure {
         !matches!(self, Self::SunlitHours | Self::Exposure | Self::MedianDaylight)
     }
 
+    /// The illuminances in lx, from the first to the second, of the hours that it counts; `None`
+    /// where it counts none, and of the light straight from the sun for [`Self::SunlitHours`].
+    pub(super) fn counted_lx(self, thresholds: &Thresholds) -> Option<[f64; 2]> {
+        let &Thresholds { enough_lx, useful_lx: [least_lx, most_lx], sunlight_lx } = thresholds;
+        match self {
+            Self::Autonomy => Some([enough_lx, f64::INFINITY]),
+            Self::TooLittle => Some([f64::NEG_INFINITY, least_lx]),
+            Self::Supplementary => Some([least_lx, enough_lx]),
+            Self::Autonomous => Some([enough_lx, most_lx]),
+            Self::TooMuch => Some([most_lx, f64::INFINITY]),
+            Self::SunlitHours => Some([sunlight_lx, f64::INFINITY]),
+            Self::ContinuousAutonomy | Self::Exposure | Self::MedianDaylight => None,
+        }
+    }
+
     pub(super) fn place(self) -> usize {
         Self::ALL.iter().position(|other| *other == self).unwrap_or(0)
     }

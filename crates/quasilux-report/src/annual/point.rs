@@ -1,10 +1,13 @@
-//! One sensor point over a year: its measures, with intervals by the jackknife over replicates.
+//! One sensor point over a year: its measures, with their intervals.
 //!
-//! A measure is a function of the mean illuminances of all hours. Left out one after the other,
-//! replicates change it a little; that makes its interval (B. Efron and C. Stein, "The jackknife
-//! estimate of variance", Annals of Statistics 9, 1981), which counts that all hours share their
-//! paths. Hours are counted beside it by their own intervals: surely above, surely below,
-//! undecided.
+//! A measure that counts hours is off by no more than the hours that may be on the other side of a
+//! threshold, each by its own interval: where few hours are near it, replicates that are left out
+//! seldom tell of them. So an hour is surely above, surely below, or undecided.
+//!
+//! Other measures are smooth functions of the mean illuminances of all hours. Left out one after
+//! the other, replicates change them a little; that makes their intervals (B. Efron and C. Stein,
+//! "The jackknife estimate of variance", Annals of Statistics 9, 1981), which count that all hours
+//! share their paths.
 
 use super::calendar::Calendar;
 use super::measures::{Measure, Thresholds, measures};
@@ -86,34 +89,28 @@ impl PointOfHours {
         thresholds: &Thresholds,
         confidence: f64,
     ) -> Self {
-        let replicates = point.illuminance_lx.len();
-        let t = t_quantile_for(replicates, 1.0 - confidence);
+        let t = t_quantile_for(point.illuminance_lx.len(), 1.0 - confidence);
         let of_year = Replicates::new(&point.illuminance_lx);
         let of_sun = Replicates::new(&point.sun_lx);
-        let of = |illuminance_lx: &[f64], sun_lx: &[f64]| {
-            measures(calendar, thresholds, illuminance_lx, sun_lx)
-        };
-        let values = of(&of_year.means, &of_sun.means);
-        let mut squares = [0.0; Measure::ALL.len()];
-        if t.is_some() {
-            for replicate in 0..replicates {
-                let others = of(&of_year.without(replicate), &of_sun.without(replicate));
-                for ((square, other), value) in squares.iter_mut().zip(others).zip(values) {
-                    *square += (other - value) * (other - value);
-                }
+        let values = measures(calendar, thresholds, &of_year.means, &of_sun.means);
+        let errors = jackknife(calendar, thresholds, [&of_year, &of_sun]);
+        let hours_of = |all: &Replicates<'_>| all.hours(calendar, t.unwrap_or(0.0));
+        let occupied = hours_of(&of_year);
+        let occupied_by_sun = hours_of(&of_sun);
+        let half_width = |measure: Measure, t: f64| match measure.counted_lx(thresholds) {
+            Some(lx) if measure == Measure::SunlitHours => {
+                undecided(&occupied_by_sun, lx) * calendar.interval_h
             }
-        }
-        let n = replicates as f64;
-        let figure = |(value, square): (f64, f64)| Figure {
-            value: Some(value),
-            half_width: t.map(|t| t * (square * (n - 1.0) / n).sqrt()),
+            Some(lx) => undecided(&occupied, lx) / occupied.len().max(1) as f64,
+            None => t * errors[measure.place()],
         };
-        let mut figures = values.into_iter().zip(squares).map(figure);
-        let measures = std::array::from_fn(|_| figures.next().unwrap_or_default());
+        let figure = |measure: Measure| Figure {
+            value: Some(values[measure.place()]),
+            half_width: t.map(|t| half_width(measure, t)),
+        };
         let half_widths: Vec<f64> = (0..of_year.means.len())
             .map(|hour| of_year.half_width(hour, t.unwrap_or(0.0)))
             .collect();
-        let hours = count(calendar, thresholds.enough_lx, &of_year.means, &half_widths);
         let by_interval = |values: &[f64]| -> Vec<f32> {
             let value = |it: &super::Interval| match it.sky {
                 Some(sky) => values[sky] as f32,
@@ -124,8 +121,8 @@ impl PointOfHours {
         };
         Self {
             summary: PointSummary {
-                measures,
-                hours,
+                measures: Measure::ALL.map(figure),
+                hours: count(&occupied, thresholds.enough_lx),
                 samples: point.samples,
                 relative_half_width: point.relative_half_width,
                 is_done: point.is_done,
@@ -161,6 +158,14 @@ impl<'r> Replicates<'r> {
         own.map(|(mean, x)| (n * mean - f64::from(*x)) / (n - 1.0)).collect()
     }
 
+    /// The occupied hours, each with its half-width of `t` standard errors.
+    fn hours(&self, calendar: &Calendar, t: f64) -> Vec<Hour> {
+        let occupied = calendar.intervals.iter().filter(|interval| interval.is_occupied);
+        let known = |sky: usize| Hour { lx: self.means[sky], half_width: self.half_width(sky, t) };
+        let dark = Hour { lx: 0.0, half_width: 0.0 };
+        occupied.map(|interval| interval.sky.map_or(dark, known)).collect()
+    }
+
     fn half_width(&self, hour: usize, t: f64) -> f64 {
         let (n, mean) = (self.values.len() as f64, self.means[hour]);
         let square = |replicate: &Vec<f32>| {
@@ -171,14 +176,56 @@ impl<'r> Replicates<'r> {
     }
 }
 
+/// An hour, as far as it is known.
+#[derive(Clone, Copy)]
+struct Hour {
+    lx: f64,
+    half_width: f64,
+}
+
+/// Standard errors of all measures, of the illuminances and of those straight from the sun.
+fn jackknife(
+    calendar: &Calendar,
+    thresholds: &Thresholds,
+    [of_year, of_sun]: [&Replicates<'_>; 2],
+) -> [f64; Measure::ALL.len()] {
+    let values = measures(calendar, thresholds, &of_year.means, &of_sun.means);
+    let replicates = of_year.values.len();
+    let mut squares = [0.0; Measure::ALL.len()];
+    // Of one replicate nothing is left.
+    for replicate in (0..replicates).filter(|_| replicates > 1) {
+        let [lx, sun_lx] = [of_year, of_sun].map(|all| all.without(replicate));
+        let others = measures(calendar, thresholds, &lx, &sun_lx);
+        for ((square, other), value) in squares.iter_mut().zip(others).zip(values) {
+            *square += (other - value) * (other - value);
+        }
+    }
+    let n = replicates as f64;
+    squares.map(|square| (square * (n - 1.0) / n).sqrt())
+}
+
+/// By how many the hours between two illuminances may be more or fewer.
+fn undecided(hours: &[Hour], [from_lx, to_lx]: [f64; 2]) -> f64 {
+    let is_between = |lx: f64| (from_lx..to_lx).contains(&lx);
+    let (mut more, mut fewer) = (0.0_f64, 0.0_f64);
+    for &Hour { lx, half_width } in hours {
+        let (low, high) = (lx - half_width, lx + half_width);
+        if is_between(lx) {
+            fewer += f64::from(u8::from(!is_between(low) || !is_between(high)));
+        } else {
+            more += f64::from(u8::from(high >= from_lx && low < to_lx));
+        }
+    }
+    more.max(fewer)
+}
+
 /// Counts the occupied hours by what is known of them.
-fn count(calendar: &Calendar, lx: f64, means: &[f64], half_widths: &[f64]) -> HourCounts {
+fn count(hours: &[Hour], enough_lx: f64) -> HourCounts {
     let mut counts = HourCounts::default();
-    for interval in calendar.intervals.iter().filter(|interval| interval.is_occupied) {
-        let (mean, half_width) = interval.sky.map_or((0.0, 0.0), |it| (means[it], half_widths[it]));
-        let kind = match mean {
-            mean if mean - half_width >= lx => &mut counts.above,
-            mean if mean + half_width < lx => &mut counts.below,
+    for &Hour { lx, half_width } in hours {
+        let kind = match lx {
+            lx if lx - half_width >= enough_lx => &mut counts.above,
+            lx if lx + half_width < enough_lx => &mut counts.below,
             _ => &mut counts.undecided,
         };
         *kind += 1;
