@@ -93,24 +93,22 @@ impl PointOfHours {
         let of_year = Replicates::new(&point.illuminance_lx);
         let of_sun = Replicates::new(&point.sun_lx);
         let values = measures(calendar, thresholds, &of_year.means, &of_sun.means);
-        let errors = jackknife(calendar, thresholds, [&of_year, &of_sun]);
-        let hours_of = |all: &Replicates<'_>| all.hours(calendar, t.unwrap_or(0.0));
-        let occupied = hours_of(&of_year);
-        let occupied_by_sun = hours_of(&of_sun);
+        let errors = jackknife(calendar, thresholds, [&of_year, &of_sun], &values);
+        let [half_widths, of_sun_widths] =
+            [&of_year, &of_sun].map(|all| all.half_widths(t.unwrap_or(0.0)));
+        let of_hours = occupied(calendar, &of_year.means, &half_widths);
+        let of_sunlight = occupied(calendar, &of_sun.means, &of_sun_widths);
         let half_width = |measure: Measure, t: f64| match measure.counted_lx(thresholds) {
             Some(lx) if measure == Measure::SunlitHours => {
-                undecided(&occupied_by_sun, lx) * calendar.interval_h
+                undecided(&of_sunlight, lx) * calendar.interval_h
             }
-            Some(lx) => undecided(&occupied, lx) / occupied.len().max(1) as f64,
+            Some(lx) => undecided(&of_hours, lx) / of_hours.len().max(1) as f64,
             None => t * errors[measure.place()],
         };
         let figure = |measure: Measure| Figure {
             value: Some(values[measure.place()]),
             half_width: t.map(|t| half_width(measure, t)),
         };
-        let half_widths: Vec<f64> = (0..of_year.means.len())
-            .map(|hour| of_year.half_width(hour, t.unwrap_or(0.0)))
-            .collect();
         let by_interval = |values: &[f64]| -> Vec<f32> {
             let value = |it: &super::Interval| match it.sky {
                 Some(sky) => values[sky] as f32,
@@ -122,7 +120,7 @@ impl PointOfHours {
         Self {
             summary: PointSummary {
                 measures: Measure::ALL.map(figure),
-                hours: count(&occupied, thresholds.enough_lx),
+                hours: count(&of_hours, thresholds.enough_lx),
                 samples: point.samples,
                 relative_half_width: point.relative_half_width,
                 is_done: point.is_done,
@@ -158,12 +156,9 @@ impl<'r> Replicates<'r> {
         own.map(|(mean, x)| (n * mean - f64::from(*x)) / (n - 1.0)).collect()
     }
 
-    /// The occupied hours, each with its half-width of `t` standard errors.
-    fn hours(&self, calendar: &Calendar, t: f64) -> Vec<Hour> {
-        let occupied = calendar.intervals.iter().filter(|interval| interval.is_occupied);
-        let known = |sky: usize| Hour { lx: self.means[sky], half_width: self.half_width(sky, t) };
-        let dark = Hour { lx: 0.0, half_width: 0.0 };
-        occupied.map(|interval| interval.sky.map_or(dark, known)).collect()
+    /// Half-widths of `t` standard errors, hour by hour.
+    fn half_widths(&self, t: f64) -> Vec<f64> {
+        (0..self.means.len()).map(|hour| self.half_width(hour, t)).collect()
     }
 
     fn half_width(&self, hour: usize, t: f64) -> f64 {
@@ -183,13 +178,22 @@ struct Hour {
     half_width: f64,
 }
 
-/// Standard errors of all measures, of the illuminances and of those straight from the sun.
+/// The occupied hours.
+fn occupied(calendar: &Calendar, means: &[f64], half_widths: &[f64]) -> Vec<Hour> {
+    let occupied = calendar.intervals.iter().filter(|interval| interval.is_occupied);
+    let known = |sky: usize| Hour { lx: means[sky], half_width: half_widths[sky] };
+    let dark = Hour { lx: 0.0, half_width: 0.0 };
+    occupied.map(|interval| interval.sky.map_or(dark, known)).collect()
+}
+
+/// Standard errors of all measures with these values, of the illuminances and of those straight
+/// from the sun.
 fn jackknife(
     calendar: &Calendar,
     thresholds: &Thresholds,
     [of_year, of_sun]: [&Replicates<'_>; 2],
+    values: &[f64; Measure::ALL.len()],
 ) -> [f64; Measure::ALL.len()] {
-    let values = measures(calendar, thresholds, &of_year.means, &of_sun.means);
     let replicates = of_year.values.len();
     let mut squares = [0.0; Measure::ALL.len()];
     // Of one replicate nothing is left.
