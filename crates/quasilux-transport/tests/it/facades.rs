@@ -150,3 +150,24 @@ fn no_interval_is_without_what_a_facade_reflects() {
         assert!(known > 150 && missed < 16 && missed_by_far < 2, "{count:?}");
     }
 }
+
+/// Where no bounce counts, walls are dark, and what hides all of the sky leaves 0 lx for sure.
+#[test]
+fn without_bounces_hidden_skies_are_dark() {
+    let mut dark = 0;
+    for seed in 100..110 {
+        let View { scene, .. } = view(&mut Numbers::from_seed(seed));
+        let settings = Settings {
+            estimator: EstimatorKind::Path,
+            max_bounces: Some(0),
+            max_samples: Some(1 << 9),
+            seed,
+            ..Settings::default()
+        };
+        for found in simulate(&scene, &settings, &mut ()).point_intervals(0) {
+            dark += u32::from(found.value == 0.0);
+            assert!(found.value > 0.0 || found.half_width == Some(0.0), "{seed}: {found:?}");
+        }
+    }
+    assert!(dark > 0);
+}

@@ -79,8 +79,9 @@ impl<S: Spectrum> PathEstimator<'_, S> {
 /// such luminaires and openings behind it. Of the sky that walls hide behind openings, nothing
 /// comes straight, but where walls may be bright themselves, more has to be seen than none of it.
 pub(super) fn samples_direct<S: Spectrum>(context: &Context<'_, S>, target: &Target) -> bool {
-    let Context { lights, world, .. } = context;
-    let outside = lights.outside.as_ref().filter(|_| world.keeps_light());
+    let Context { lights, world, max_bounces, .. } = context;
+    let may_be_bright = world.keeps_light() && *max_bounces != Some(0);
+    let outside = lights.outside.as_ref().filter(|_| may_be_bright);
     match *target {
         _ if lights.emitters.is_some() => true,
         Target::Point { position, normal } => {
