@@ -39,8 +39,8 @@ use std::f64::consts::{FRAC_1_PI, TAU};
 /// What a cosine counts at least: openings reach further than their centres.
 const MIN_COSINE: f64 = 0.1;
 
-/// What what is outside counts at least, over a sky as bright everywhere: openings show more than
-/// lies behind their centres.
+/// The least luminance behind an opening that counts, over that of an even sky of the same
+/// illuminance: openings show more than lies behind their centres.
 const MIN_LUMINANCE: f64 = 0.1;
 
 /// Of a portal that a place lies in, but for this part of the way to its corners, it sees nothing:
@@ -54,6 +54,8 @@ pub(crate) struct OutsideLight<'a> {
     portals: Vec<Portal>,
     bright: Option<BrightSky<'a>>,
     sun: Option<SunDisk>,
+    /// The least luminance that counts behind an opening.
+    least_cd_m2: f64,
     /// A distance in m beyond everything.
     beyond_m: f64,
 }
@@ -118,7 +120,8 @@ impl<'a> OutsideLight<'a> {
         let openings = environment.openings.iter();
         let far_m = openings.map(|it| it.origin.length()).fold(far_m, f64::max);
         let beyond_m = 1e3 * (far_m + world.size_m() + 1.0);
-        Some(Self { environment, portals, bright, sun, beyond_m })
+        let least_cd_m2 = MIN_LUMINANCE * (environment.horizontal_illuminance_lx() * FRAC_1_PI);
+        Some(Self { environment, portals, bright, sun, least_cd_m2, beyond_m })
     }
 
     /// An illuminance in lx that is large for this scene.
@@ -312,8 +315,7 @@ impl<'a> OutsideLight<'a> {
         let triangle = SeenTriangle::new(corners, side * portal.n, place.position)?;
         let towards = ((a + b + c) / 3.0 - place.position).normalize_or_zero();
         let cos = place.side.map_or(1.0, |n| n.dot(towards).max(0.0) + MIN_COSINE);
-        let even_cd_m2 = self.environment.horizontal_illuminance_lx() * FRAC_1_PI;
-        let cd_m2 = self.luminance_cd_m2(towards).max(MIN_LUMINANCE * even_cd_m2);
+        let cd_m2 = self.luminance_cd_m2(towards).max(self.least_cd_m2);
         let weight = triangle.solid_angle_sr() * cos * cd_m2;
         Some(Seen { triangle, weight })
     }

@@ -48,7 +48,6 @@ use outside::{AskedOutside, OutsideFactors, first_direction, is_pane};
 use quasilux_bvh::RayQuery;
 use quasilux_sampling::Sampler;
 use specular_way::{Asked, SpecularWay};
-use std::f64::consts::FRAC_1_PI;
 
 /// A path that is over.
 pub(crate) struct PathResult<S> {
@@ -222,10 +221,10 @@ impl<'p, S: Spectrum> Path<'p, S> {
         self.connect(context, &vertex, work);
         self.asked_outside =
             self.pdf_sr.and_then(|pdf_sr| AskedOutside::new(context, &vertex, pdf_sr, None));
-        self.pdf_sr = Some(vertex.pdf_sr(self.direction));
-        self.specular_way = self.pdf_sr.and_then(|pdf_sr| self.specular_way(context, pdf_sr));
-        let cos = n.dot(self.direction);
-        self.subpath = self.subpath.map(|start| start.scattered(cos, cos * FRAC_1_PI, 0.0));
+        let (cos, pdf_sr) = (n.dot(self.direction), vertex.pdf_sr(self.direction));
+        self.pdf_sr = Some(pdf_sr);
+        self.specular_way = self.specular_way(context, pdf_sr);
+        self.subpath = self.subpath.map(|start| start.scattered(cos, pdf_sr, 0.0));
     }
 
     /// The ray along which it goes on.

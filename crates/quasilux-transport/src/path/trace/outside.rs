@@ -6,7 +6,7 @@
 use super::{Onward, Path, PathWork};
 use crate::bsdf::{Bsdf, BsdfSample};
 use crate::context::Context;
-use crate::lights::{Asking, OnwardDirection, OutsideLight, SunSample};
+use crate::lights::{Asking, OnwardDirection, SunSample};
 use crate::path::daylight::{Daylight, DaylightSearch, Whence};
 use crate::purpose::Purpose;
 use crate::spectrum::Spectrum;
@@ -76,12 +76,9 @@ const SHARE_THROUGH_OPENINGS: f64 = 0.1;
 const SHARE_OF_SEARCH: f64 = 0.75;
 
 /// The share of paths with that search that leave their start through openings.
-fn onward_share(outside: &OutsideLight<'_>, search: Option<&DaylightSearch<'_>>) -> f64 {
-    match search {
-        _ if !outside.has_portals() => 0.0,
-        Some(search) if search.only_from_beyond => SHARE_OF_SEARCH,
-        _ => SHARE_THROUGH_OPENINGS,
-    }
+fn onward_share(search: Option<&DaylightSearch<'_>>) -> f64 {
+    let is_search = search.is_some_and(|search| search.only_from_beyond);
+    if is_search { SHARE_OF_SEARCH } else { SHARE_THROUGH_OPENINGS }
 }
 
 /// The direction in which a path leaves a sensor point with the side `n`. Its density counts for
@@ -94,11 +91,11 @@ pub(super) fn first_direction<S: Spectrum>(
     search: Option<&DaylightSearch<'_>>,
     u: [f64; 2],
 ) -> OnwardDirection {
-    if let Some(outside) = &context.lights.outside {
+    let outside = context.lights.outside.as_ref();
+    if let Some(outside) = outside.filter(|outside| outside.has_portals()) {
         let place = Asking::at(&Vertex::<S>::sensor(from, n));
         let nothing = OnwardDirection { direction: n, pdf_sr: 1.0, weight: 0.0 };
-        let share = onward_share(outside, search);
-        return outside.sample_onward(place, n, share, u).unwrap_or(nothing);
+        return outside.sample_onward(place, n, onward_share(search), u).unwrap_or(nothing);
     }
     let first = DVec3::from_array(sample_cosine_hemisphere(u));
     let direction = Frame::around(n).to_world(first);
@@ -120,7 +117,7 @@ impl<S: Spectrum> Path<'_, S> {
             let purpose = Purpose::Opening { surface };
             let u = context.draw(&mut self.sampler, purpose, Sampler::next_2d);
             let search = self.daylight.as_ref().map(|daylight| &daylight.search);
-            let share = if vertex.is_sensor() { onward_share(outside, search) } else { 0.0 };
+            let share = if vertex.is_sensor() { onward_share(search) } else { 0.0 };
             let sample = outside.light_sample(vertex, share, u);
             if let (Some(daylight), Some(sample)) = (&mut self.daylight, &sample) {
                 let whence = Whence::Outside(sample.direction);
