@@ -98,6 +98,11 @@ pub(crate) enum Stream {
     EyeSubpaths(u64),
     /// Light subpaths for the same sensor point.
     LightSubpaths(u64),
+    /// Light subpaths that serve all sensor points.
+    SharedSubpaths,
+    /// Which vertices of them are joined to a sensor point, and where in its cell, numbered through
+    /// all sensors.
+    Joins(u64),
     /// Photons that leave virtual lights for pictures.
     PictureLights,
     /// Paths through one pixel of one camera.
@@ -126,6 +131,8 @@ impl Stream {
             Self::WitnessPhotons => u64::MAX - 66,
             Self::WitnessPlaces => u64::MAX - 67,
             Self::PictureLights => u64::MAX - 68,
+            Self::SharedSubpaths => u64::MAX - 70,
+            Self::Joins(point) => (7 << 60) + point,
             Self::WitnessPaths(point) => (1 << 61) + point,
             Self::SunDisks(point) => (3 << 60) + point,
             Self::DaylightPaths(point) => (5 << 60) + point,
@@ -162,6 +169,8 @@ impl Stream {
                 | Self::SunDisks(_)
                 | Self::Meshes
                 | Self::EyeSubpaths(_)
+                | Self::SharedSubpaths
+                | Self::Joins(_)
                 | Self::LightSubpaths(_),
                 Sequence::Hammersley { .. },
             ) => Sequence::Halton,
@@ -266,9 +275,9 @@ mod tests {
     fn streams_have_numbers_of_their_own() {
         use Stream::{
             CausticPhotons, CellPhotons, ConnectedPhotons, ConnectionPlaces, DaylightPaths,
-            EyeSubpaths, FirstShotPilots, LightSubpaths, MapPilots, Meshes, Paths, Photons,
-            PictureLights, PlanPhotons, SunDisks, Survey, WindowPilots, WitnessPaths,
-            WitnessPhotons, WitnessPlaces,
+            EyeSubpaths, FirstShotPilots, Joins, LightSubpaths, MapPilots, Meshes, Paths, Photons,
+            PictureLights, PlanPhotons, SharedSubpaths, SunDisks, Survey, WindowPilots,
+            WitnessPaths, WitnessPhotons, WitnessPlaces,
         };
         let single =
             [Photons, PlanPhotons, MapPilots, FirstShotPilots, WindowPilots, CausticPhotons];
@@ -285,11 +294,13 @@ mod tests {
                 SunDisks,
                 EyeSubpaths,
                 LightSubpaths,
+                Joins,
                 WitnessPaths,
             ]
             .map(|stream| stream(number))
         });
-        let others = [CellPhotons, WitnessPhotons, WitnessPlaces, PictureLights, Meshes];
+        let others =
+            [CellPhotons, WitnessPhotons, WitnessPlaces, PictureLights, Meshes, SharedSubpaths];
         let streams = single.into_iter().chain(others).chain(numbered);
         let streams = streams.chain(numbers(62).map(Survey)).chain(pixels);
         let mut ids: Vec<u64> = streams.map(Stream::id).collect();

@@ -26,6 +26,7 @@
 //! `daylight_factor`, the components of daylight; `settings`.
 
 mod annual;
+mod bidirectional;
 mod bsdf;
 mod codec;
 mod context;

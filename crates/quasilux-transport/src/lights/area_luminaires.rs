@@ -12,7 +12,7 @@
 //! running into one.
 
 use crate::lights::coarse_lights::CoarseLights;
-use crate::lights::pointlike::LightCentre;
+use crate::lights::pointlike::{Choice, LightCentre};
 use crate::lights::selection::{Asking, ChoiceWork, DEFENSIVE_SHARE, LightChoice, Surroundings};
 use crate::spectrum::Spectrum;
 use crate::world::World;
@@ -36,6 +36,16 @@ pub(crate) struct AreaLuminaires<'a> {
     /// The same luminaires.
     coarse: CoarseLights<'a>,
     choice: LightChoice,
+}
+
+/// What a place on a luminous shape gives.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PlaceIncidence {
+    /// Unit direction to the place.
+    pub(crate) direction: DVec3,
+    pub(crate) distance_m: f64,
+    /// Over the density of the place, without the choice of the luminaire.
+    pub(crate) illuminance_lx: f64,
 }
 
 struct AreaLuminaire<'a> {
@@ -122,6 +132,41 @@ impl<'a> AreaLuminaires<'a> {
         Some(LightSample { light, illuminance_lx, ..light_sample })
     }
 
+    /// One of them, chosen with a probability that can be told, and a place on it.
+    pub(crate) fn choose(
+        &self,
+        at: Asking,
+        u: [f64; 2],
+        work: &mut ChoiceWork,
+    ) -> Option<(Choice, SurfacePoint)> {
+        let around = |light: usize, around: &Surroundings| self.lights[light].weight_around(around);
+        let weights = self.lights.iter().map(|light| light.importance_lx(at.position, at.side));
+        let chosen = self.choice.choose_without_candidates(at, u[0], around, weights, work)?;
+        let light = &self.lights[chosen.light];
+        let towards = light.centre_direction(at.position);
+        let place = light.luminaire.shape.sample_silhouette(towards, [chosen.u_remapped, u[1]]);
+        Some((Choice { number: chosen.light, pdf: chosen.pdf }, place))
+    }
+
+    /// The probability of the choice of [`Self::choose`].
+    pub(crate) fn probability(&self, number: usize, at: Asking) -> f64 {
+        let around = |light: usize, around: &Surroundings| self.lights[light].weight_around(around);
+        let weights = self.lights.iter().map(|light| light.importance_lx(at.position, at.side));
+        self.choice.probability(number, at, around, weights)
+    }
+
+    /// What a place on one of them gives, over the density of its silhouette as seen from a
+    /// position; `cos` gives the cosine that illuminance takes.
+    pub(crate) fn incidence(
+        &self,
+        number: usize,
+        place: &SurfacePoint,
+        position: DVec3,
+        cos: impl FnOnce(DVec3) -> f64,
+    ) -> Option<PlaceIncidence> {
+        self.lights[number].incidence(place, position, cos)
+    }
+
     /// How many have a shape that encloses a volume which surfaces pass through: part of their
     /// light starts behind these.
     pub(crate) fn cut_by_surfaces<S: Spectrum>(&self, world: &World<S>) -> usize {
@@ -154,6 +199,34 @@ impl AreaLuminaire<'_> {
         around.lx(self.luminaire.position, self.radius_m, intensity_cd)
     }
 
+    /// From its centre to a position, in its frame.
+    fn centre_direction(&self, position: DVec3) -> DVec3 {
+        let luminaire_from_world = self.luminaire.world_from_luminaire.transpose();
+        let from_centre = luminaire_from_world * (position - self.luminaire.position);
+        from_centre.normalize_or(DVec3::NEG_Z)
+    }
+
+    fn incidence(
+        &self,
+        place: &SurfacePoint,
+        position: DVec3,
+        cos: impl FnOnce(DVec3) -> f64,
+    ) -> Option<PlaceIncidence> {
+        let Luminaire { shape, world_from_luminaire, .. } = self.luminaire;
+        let toward = place_m(self.luminaire, place) - position;
+        let distance_m = toward.length();
+        let direction = toward / distance_m;
+        let cos = cos(direction);
+        let share = shape.pdf_silhouette(world_from_luminaire.transpose() * -direction, place);
+        let drawn = shape.pdf_silhouette(self.centre_direction(position), place);
+        if cos <= 0.0 || share <= 0.0 || drawn <= 0.0 {
+            return None;
+        }
+        let intensity_cd = self.luminaire.intensity_cd(-direction);
+        let illuminance_lx = intensity_cd * (share / drawn) * cos / (distance_m * distance_m);
+        Some(PlaceIncidence { direction, distance_m, illuminance_lx })
+    }
+
     /// One place on the shape, with the estimator at the head of this module.
     fn light_sample<S: Spectrum>(
         &self,
@@ -161,23 +234,9 @@ impl AreaLuminaire<'_> {
         u: [f64; 2],
     ) -> Option<LightSample<S>> {
         let position = vertex.position();
-        let Luminaire { shape, world_from_luminaire, .. } = self.luminaire;
-        let luminaire_from_world = world_from_luminaire.transpose();
-        let from_centre = luminaire_from_world * (position - self.luminaire.position);
-        let centre_direction = from_centre.normalize_or(DVec3::NEG_Z);
-        let place = shape.sample_silhouette(centre_direction, u);
-
-        let toward = place_m(self.luminaire, &place) - position;
-        let distance_m = toward.length();
-        let direction = toward / distance_m;
-        let cos = vertex.cos(direction);
-        let share = shape.pdf_silhouette(luminaire_from_world * -direction, &place);
-        if cos <= 0.0 || share <= 0.0 {
-            return None;
-        }
-        let ratio = share / shape.pdf_silhouette(centre_direction, &place);
-        let intensity_cd = self.luminaire.intensity_cd(-direction);
-        let illuminance_lx = intensity_cd * ratio * cos / (distance_m * distance_m);
+        let place = self.luminaire.shape.sample_silhouette(self.centre_direction(position), u);
+        let PlaceIncidence { direction, distance_m, illuminance_lx } =
+            self.incidence(&place, position, |direction| vertex.cos(direction))?;
         let light = vertex.weight(direction) * illuminance_lx;
         LightSample::unless_dark(direction, distance_m, light, illuminance_lx)
     }

@@ -19,12 +19,12 @@ mod selection;
 mod sun_ways;
 mod suns;
 
-pub(crate) use area_luminaires::AreaLuminaires;
+pub(crate) use area_luminaires::{AreaLuminaires, PlaceIncidence};
 pub(crate) use coarse_lights::coarse_tables_bytes;
 pub(crate) use emitting_facets::{EmitterPoint, Emitters};
 pub(crate) use facet_group::EmitterPlace;
-pub(crate) use outside::{OnwardDirection, OutsideLight};
-pub(crate) use pointlike::{Incidence, LightCentre, PointLikes};
+pub(crate) use outside::{Line, OnwardDirection, OutsideLight};
+pub(crate) use pointlike::{Choice, Incidence, LightCentre, PointLikes};
 pub(crate) use selection::{Asking, ChoiceWork, tables_bytes};
 pub(crate) use sun_ways::{SunPlace, SunWays};
 pub(crate) use suns::{SunChoice, SunSample, Suns};
@@ -38,6 +38,7 @@ use crate::world::{RayOrigin, World};
 use area_luminaires::place_m;
 use glam::DVec3;
 use outside::{Beside, OutsidePhoton, OutsidePhotons};
+use quasilux_photometry::SurfacePoint;
 use quasilux_sampling::warp::{sample_cosine_hemisphere, sample_uniform_sphere};
 use quasilux_sampling::{Discrete, Sampler};
 use quasilux_scene::{Light, Scene};
@@ -66,6 +67,16 @@ pub(crate) struct Lights<'a> {
     pub(crate) lamps_lm: f64,
 }
 
+/// What a number of [`Lights`] stands for, with its number in its kind.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum LightKind {
+    Pointlike(usize),
+    Luminaire(usize),
+    /// All emitting facets.
+    Emitters,
+    WayIn(usize),
+}
+
 /// A photon that has just left its light.
 pub(crate) struct Emitted {
     /// Number of the light.
@@ -74,6 +85,8 @@ pub(crate) struct Emitted {
     pub(crate) path_class: LightPathClass,
     /// Its flux over that of a photon of all lights: 1 but for light from outside.
     pub(crate) share: f64,
+    /// Where on its shape, of a luminaire with an area.
+    pub(crate) place: Option<SurfacePoint>,
 }
 
 /// A photon at the moment it leaves its light, or a surface.
@@ -160,6 +173,22 @@ impl<'a> Lights<'a> {
     /// The flux of one of them in lm.
     pub(crate) fn flux_of_lm(&self, number: usize) -> f64 {
         self.fluxes_lm[number]
+    }
+
+    /// Which kind of light a number stands for.
+    pub(crate) fn kind(&self, number: usize) -> LightKind {
+        let pointlikes = self.pointlikes.len();
+        match number.checked_sub(self.first_way_in) {
+            Some(way) => LightKind::WayIn(way),
+            None if number < pointlikes => LightKind::Pointlike(number),
+            None if number + 1 < self.first_way_in => LightKind::Luminaire(number - pointlikes),
+            None => LightKind::Emitters,
+        }
+    }
+
+    /// How photons from outside come in.
+    pub(crate) fn ways_in(&self) -> Option<(&OutsideLight<'a>, &OutsidePhotons)> {
+        self.outside.as_ref().zip(self.outside_photons.as_ref())
     }
 
     /// The density in m^-2 with which photons of one lamp, among those of all lamps, land straight
@@ -253,7 +282,7 @@ impl<'a> Lights<'a> {
             let from = world.ray_origin_of_light(position, direction);
             let path_class = LightPathClass::Shown(number as u32);
             let emission = Emission { from, direction };
-            return Some(Emitted { light: number, emission, path_class, share: 1.0 });
+            return Some(Emitted { light: number, emission, path_class, share: 1.0, place: None });
         }
         if let Some(luminaire) = self.area_luminaires.get(number - self.pointlikes.len()) {
             let towards = luminaire.photometry.sample_direction(u)?;
@@ -265,6 +294,7 @@ impl<'a> Lights<'a> {
                 emission: Emission { from, direction },
                 path_class: LightPathClass::Straight,
                 share: 1.0,
+                place: Some(place),
             });
         }
         if let Some(way_in) = number.checked_sub(self.first_way_in) {
@@ -274,7 +304,7 @@ impl<'a> Lights<'a> {
             let from = world.ray_origin_of_light(position, direction);
             let emission = Emission { from, direction };
             let path_class = LightPathClass::Outside;
-            return Some(Emitted { light: number, emission, path_class, share });
+            return Some(Emitted { light: number, emission, path_class, share, place: None });
         }
         let place = self.emitters.as_ref()?.sample_point(world, u);
         let n = world.facets[place.facet as usize].front_normal;
@@ -283,6 +313,6 @@ impl<'a> Lights<'a> {
         let from = world.ray_origin_on_front(place.facet, place.position);
         let emission = Emission { from, direction };
         let path_class = LightPathClass::Found;
-        Some(Emitted { light: number, emission, path_class, share: 1.0 })
+        Some(Emitted { light: number, emission, path_class, share: 1.0, place: None })
     }
 }

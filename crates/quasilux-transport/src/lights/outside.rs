@@ -18,7 +18,7 @@ mod photons;
 mod tests;
 mod views;
 
-pub(crate) use photons::{Beside, OutsidePhoton, OutsidePhotons};
+pub(crate) use photons::{Beside, Line, OutsidePhoton, OutsidePhotons};
 
 use crate::lights::bright_sky::BrightSky;
 use crate::lights::seen_triangle::SeenTriangle;
@@ -184,6 +184,35 @@ impl<'a> OutsideLight<'a> {
         let chord_squared = |sun: &SunDisk| (direction - sun.direction).length_squared();
         let on_disk = |sun: &&SunDisk| 0.5 * TAU * chord_squared(sun) <= sun.solid_angle_sr;
         self.sun.as_ref().filter(on_disk).map_or(0.0, |sun| sun.luminance_cd_m2)
+    }
+
+    /// A direction to ask along for sky and ground through an opening or in a bright pixel, with its
+    /// density in sr^-1.
+    pub(crate) fn sample_asked(&self, place: Asking, u: [f64; 2]) -> Option<(DVec3, f64)> {
+        let seen = self.seen(place);
+        let direction = self.sample_direction(&seen, place, u)?;
+        let pdf_sr = self.pdf_of(&seen, place, direction);
+        // At the very edge of a pixel rounding may find its neighbour.
+        (pdf_sr > 0.0).then_some((direction, pdf_sr))
+    }
+
+    /// A direction to the disk of the sun, evenly over it.
+    pub(crate) fn sample_sun(&self, u: [f64; 2]) -> Option<DVec3> {
+        Some(self.sun.as_ref()?.sample_direction(u))
+    }
+
+    /// Density in sr^-1 of [`Self::sample_sun`].
+    pub(crate) fn sun_pdf_sr(&self, direction: DVec3) -> f64 {
+        let is_met = self.sun_cd_m2(direction) > 0.0;
+        self.sun.as_ref().filter(|_| is_met).map_or(0.0, |sun| sun.solid_angle_sr.recip())
+    }
+
+    /// Luminance of the disk of the sun in cd/m^2, and what all of it gives on a plane across its
+    /// rays in lx; 0 without one.
+    pub(crate) fn sun_brightness(&self) -> [f64; 2] {
+        self.sun.as_ref().map_or([0.0; 2], |sun| {
+            [sun.luminance_cd_m2, sun.luminance_cd_m2 * sun.solid_angle_sr]
+        })
     }
 
     /// What comes through one point of the openings or from a bright pixel, weighted against the

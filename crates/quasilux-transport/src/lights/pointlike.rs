@@ -19,6 +19,15 @@ pub(crate) struct PointLikes<'a> {
     choice: LightChoice,
 }
 
+/// A light that was chosen.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Choice {
+    /// Among those of its kind.
+    pub(crate) number: usize,
+    /// Probability of the choice.
+    pub(crate) pdf: f64,
+}
+
 /// The centre of a light.
 #[derive(Clone, Copy)]
 pub(crate) struct LightCentre {
@@ -126,6 +135,48 @@ impl<'a> PointLikes<'a> {
     /// Coordinates of the choice among them.
     pub(crate) fn dimensions_of_choice(&self) -> u32 {
         self.choice.dimensions()
+    }
+
+    /// One of them, chosen with a probability that can be told: of few in proportion to what each
+    /// gives unshadowed, of many by a table.
+    pub(crate) fn choose(&self, place: Asking, u: f64, work: &mut ChoiceWork) -> Option<Choice> {
+        if self.lights.len() == 1 {
+            return Some(Choice { number: 0, pdf: 1.0 });
+        }
+        let around = |light: usize, around: &Surroundings| weight_around(self.lights[light], around);
+        let chosen =
+            self.choice.choose_without_candidates(place, u, around, self.weights(place), work)?;
+        Some(Choice { number: chosen.light, pdf: chosen.pdf })
+    }
+
+    /// The probability of [`Self::choose`].
+    pub(crate) fn probability(&self, number: usize, place: Asking) -> f64 {
+        if self.lights.len() == 1 {
+            return 1.0;
+        }
+        let around = |light: usize, around: &Surroundings| weight_around(self.lights[light], around);
+        self.choice.probability(number, place, around, self.weights(place))
+    }
+
+    /// What each gives to a place unshadowed, in lx.
+    fn weights(&self, place: Asking) -> impl Iterator<Item = f64> {
+        let Asking { position, side, .. } = place;
+        let lx = move |number| {
+            self.illuminance_lx(number, position, side.unwrap_or(DVec3::Z), side.is_none())
+        };
+        // Where light counts from both sides, no cosine is known.
+        let intensity = move |number: usize| {
+            let toward = self::position(self.lights[number]) - position;
+            let square_m2 = toward.length_squared();
+            intensity_cd(self.lights[number], -toward / square_m2.sqrt()) / square_m2
+        };
+        (0..self.lights.len())
+            .map(move |number| if side.is_some() { lx(number) } else { intensity(number) })
+    }
+
+    /// Whether so many that a table chooses.
+    pub(crate) fn are_many(&self) -> bool {
+        self.choice.has_tables()
     }
 
     /// An estimate of what all of them give from one light, chosen with `u` by about what it would

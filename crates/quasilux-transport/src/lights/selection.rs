@@ -198,7 +198,7 @@ impl LightChoice {
 
 impl ChoiceWork {
     /// The sum of the weights: no number where one of them is none.
-    pub(super) fn total(&self) -> f64 {
+    pub(crate) fn total(&self) -> f64 {
         self.asked.iter().map(|it| it.weight).sum()
     }
 

@@ -34,6 +34,17 @@ impl SubpathWeights {
     /// At a sensor point, which no light subpath can meet.
     pub(crate) const SENSOR: Self = Self { vcm: 0.0, vc: 0.0 };
 
+    /// With these sums.
+    pub(crate) fn new(vcm: f64, vc: f64) -> Self {
+        Self { vcm, vc }
+    }
+
+    /// Where the technique that leaves this vertex alone is used `alone` times, and those that
+    /// leave more are `more` times as likely as they were taken for.
+    pub(crate) fn times(self, alone: f64, more: f64) -> Self {
+        Self { vcm: product(alone, self.vcm), vc: product(more, self.vc) }
+    }
+
     /// At the first surface that is not specular, where light without extent lands with this
     /// density in m^-2: an eye subpath that ends here asks the light or its image, and nothing
     /// meets it. Without a density it asks nothing.

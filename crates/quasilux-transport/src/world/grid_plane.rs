@@ -55,6 +55,11 @@ impl GridPlane {
         (self.grid.normal.dot(direction) / self.normal.dot(direction)).max(0.0)
     }
 
+    /// Where the line of a flight crosses it, in m from the start.
+    pub(crate) fn distance_m(&self, flight: &Flight) -> f64 {
+        self.normal.dot(self.origin - flight.from) / self.normal.dot(flight.direction)
+    }
+
     /// The cell that a flight passes through from the front, if any.
     pub(crate) fn cell(&self, flight: &Flight) -> Option<usize> {
         let &Flight { from, direction, length_m } = flight;

@@ -150,6 +150,24 @@ impl<'w, S: Spectrum> Vertex<'w, S> {
         })
     }
 
+    /// Density in sr^-1 of paths that go on from here along `direction`, survival in it.
+    pub(crate) fn survival_pdf_sr(&self, direction: DVec3) -> f64 {
+        match &self.surface {
+            None => self.pdf_sr(direction),
+            Some(Surface { bsdf, frame, wo, .. }) => {
+                bsdf.survival_pdf_sr(*wo, frame.to_local(direction))
+            }
+        }
+    }
+
+    /// The same of light that arrives from `direction` and goes on toward the start of the path; 0
+    /// at the start.
+    pub(crate) fn reverse_survival_pdf_sr(&self, direction: DVec3) -> f64 {
+        self.surface.as_ref().map_or(0.0, |Surface { bsdf, frame, wo, .. }| {
+            bsdf.survival_pdf_sr(frame.to_local(direction), *wo)
+        })
+    }
+
     /// Where a ray leaves from along `direction`.
     pub(crate) fn ray_origin(&self, direction: DVec3) -> RayOrigin {
         let behind = self.surface.and_then(|surface| surface.behind);

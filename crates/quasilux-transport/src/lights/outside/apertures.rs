@@ -96,6 +96,20 @@ impl Apertures {
         Some(ThroughApertures { point, per_density_m2: sum_m2 / crossed })
     }
 
+    /// The most that [`ThroughApertures::per_density_m2`] can be for a direction.
+    pub(super) fn most_m2(&self, direction: DVec3) -> f64 {
+        let open = self.apertures.iter().map(|it| it.open_to(direction));
+        let least = open.fold(f64::INFINITY, f64::min);
+        self.apertures.iter().map(|it| it.size_m2(direction)).sum::<f64>() / least
+    }
+
+    /// Density in m^-2, among lines of its direction, of [`Self::sample_line`] at that through a
+    /// point.
+    pub(super) fn pdf_line(&self, point: DVec3, direction: DVec3) -> f64 {
+        let sum_m2: f64 = self.apertures.iter().map(|it| it.size_m2(direction)).sum();
+        if sum_m2 > 0.0 { self.crossed(point, direction, None) / sum_m2 } else { 0.0 }
+    }
+
     /// Whether the line of this direction through a point goes through any.
     pub(super) fn is_crossed(&self, point: DVec3, direction: DVec3) -> bool {
         self.crossed(point, direction, None) > 0.0

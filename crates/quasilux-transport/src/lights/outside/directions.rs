@@ -75,6 +75,29 @@ impl DirectionTable {
         );
         DrawnDirection { direction, pdf_sr: row.pdf * column.pdf / CELL_SR }
     }
+
+    /// Density in sr^-1 of [`Self::sample_direction`].
+    pub(super) fn pdf_direction_sr(&self, direction: DVec3) -> f64 {
+        let [(row, _), (column, _)] = place_of(direction);
+        self.rows.pdf(row) * self.columns[row].pdf(column) / CELL_SR
+    }
+
+    /// The directions in the middle of all cells.
+    pub(super) fn middles() -> impl Iterator<Item = DVec3> {
+        (0..ROWS * COLUMNS)
+            .map(|cell| direction_in((cell / COLUMNS) as f64 + 0.5, (cell % COLUMNS) as f64 + 0.5))
+    }
+}
+
+/// Row and column of a direction, and where in them it is.
+fn place_of(direction: DVec3) -> [(usize, f64); 2] {
+    let row = (direction.z + 1.0) / 2.0 * ROWS as f64;
+    let turn = libm::atan2(direction.y, direction.x) / TAU;
+    let column = (turn - turn.floor()) * COLUMNS as f64;
+    [(row, ROWS), (column, COLUMNS)].map(|(place, count)| {
+        let cell = (place as usize).min(count - 1);
+        (cell, place - cell as f64)
+    })
 }
 
 /// The direction at a place in the grid of cells, counted from straight down.
@@ -92,28 +115,11 @@ mod tests {
     use quasilux_stats::{CellCount, chi_square_test, sphere_jacobian};
 
     impl DirectionTable {
-        /// Density in sr^-1.
-        fn pdf_direction_sr(&self, direction: DVec3) -> f64 {
-            let [(row, _), (column, _)] = place_of(direction);
-            self.rows.pdf(row) * self.columns[row].pdf(column) / CELL_SR
-        }
-
         /// The coordinates that a direction is drawn with.
         fn invert_direction(&self, direction: DVec3) -> [f64; 2] {
             let [(row, down), (column, along)] = place_of(direction);
             [self.rows.invert(row, down), self.columns[row].invert(column, along)]
         }
-    }
-
-    /// Row and column of a direction, and where in them it is.
-    fn place_of(direction: DVec3) -> [(usize, f64); 2] {
-        let row = (direction.z + 1.0) / 2.0 * ROWS as f64;
-        let turn = libm::atan2(direction.y, direction.x) / TAU;
-        let column = (turn - turn.floor()) * COLUMNS as f64;
-        [(row, ROWS), (column, COLUMNS)].map(|(place, count)| {
-            let cell = (place as usize).min(count - 1);
-            (cell, place - cell as f64)
-        })
     }
 
     /// A bright spot over a dim sky, and a ground.

@@ -172,6 +172,64 @@ impl OutsidePhotons {
     }
 }
 
+impl OutsidePhotons {
+    /// Density in m^-2 sr^-1, across and over directions, of the photons of one way in along the
+    /// line through a point with this direction; those of the sun or of the sky.
+    pub(crate) fn pdf_line(
+        &self,
+        outside: &OutsideLight<'_>,
+        way: usize,
+        line: &Line,
+    ) -> f64 {
+        let way = &self.ways[way];
+        let &Line { point, direction, of_sun } = line;
+        let pdf_sr = match (&way.directions, of_sun) {
+            (Some(table), false) => table.pdf_direction_sr(-direction),
+            (None, true) => outside.sun_pdf_sr(-direction),
+            _ => return 0.0,
+        };
+        let pdf_m2 = match &way.gate {
+            Gate::Hull if self.openings.is_crossed(point, direction) => 0.0,
+            Gate::Hull => self.hull.silhouette_m2(direction).recip(),
+            Gate::Openings(apertures) => apertures.pdf_line(point, direction),
+        };
+        pdf_sr * pdf_m2
+    }
+
+    /// Whether the photons of a way in are those of the sun.
+    pub(crate) fn is_sun(&self, way: usize) -> bool {
+        self.ways[way].directions.is_none()
+    }
+
+    /// About the most flux in lm that a photon carries, where one in each is of this way.
+    pub(crate) fn most_lm(&self, outside: &OutsideLight<'_>, way: usize) -> f64 {
+        let way = &self.ways[way];
+        let size_m2 = |direction: DVec3| match &way.gate {
+            Gate::Hull => self.hull.silhouette_m2(direction),
+            Gate::Openings(apertures) => apertures.most_m2(direction),
+        };
+        match (&way.directions, &outside.sun) {
+            (Some(table), _) => DirectionTable::middles()
+                .map(|towards| {
+                    let lm_m2 = outside.luminance_cd_m2(towards) / table.pdf_direction_sr(towards);
+                    lm_m2 * size_m2(-towards)
+                })
+                .fold(0.0, f64::max),
+            (None, Some(sun)) => sun.normal_illuminance_lx * size_m2(-sun.direction),
+            (None, None) => 0.0,
+        }
+    }
+}
+
+/// A line that light from outside comes along.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Line {
+    pub(crate) point: DVec3,
+    /// Unit vector in which the light goes.
+    pub(crate) direction: DVec3,
+    pub(crate) of_sun: bool,
+}
+
 impl WayIn {
     /// Of sky and ground; `None` where they are dark.
     fn of_sky(outside: &OutsideLight<'_>, gate: Gate, hull: &Hull) -> Option<Self> {

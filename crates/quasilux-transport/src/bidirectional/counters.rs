@@ -1,0 +1,186 @@
+//! Photons that cross the disc of a sensor point, or a cell.
+//!
+//! A photon of the flux phi adds `phi / A`, weighed by the balance heuristic as the path that ends
+//! where it crosses. Cells count the mean over themselves, as is asked; discs count the mean over
+//! the disc for the value at their centre.
+
+use super::boxes::BoxTree;
+use super::engine::Engine;
+use super::light_subpath::{LastVertex, Passing};
+use super::plan::Receiver;
+use crate::spectrum::Spectrum;
+use crate::stats::targets::Target;
+use crate::world::World;
+use crate::world::grid_plane::GridPlane;
+use glam::DVec3;
+use std::f64::consts::FRAC_1_PI;
+use std::ops::Range;
+
+/// Sections of targets that photons may cross.
+pub(super) struct Counters {
+    boxes: BoxTree,
+    things: Vec<Counter>,
+}
+
+enum Counter {
+    Disc { section: usize },
+    /// Cells of a grid, as the sections of those that count.
+    Cells { plane: GridPlane, behind: Option<GridPlane>, sections: Vec<(usize, usize)> },
+}
+
+/// What a photon adds.
+pub(super) struct Crossing<S> {
+    pub(super) section: usize,
+    pub(super) light: S,
+    pub(super) bounces: u32,
+}
+
+impl Counters {
+    /// Of the sections with these receivers, in their order.
+    pub(super) fn new<S>(world: &World<S>, receivers: &[&Receiver]) -> Self
+    where
+        S: Spectrum,
+    {
+        let (mut things, mut corners) = (Vec::new(), Vec::new());
+        let mut section = 0;
+        while let Some(receiver) = receivers.get(section) {
+            match receiver.target {
+                Target::Point { .. } => {
+                    let radius_m = receiver.radius_m.unwrap_or_default();
+                    // A disc reaches along an axis as far as that is in its plane.
+                    let n = receiver.n;
+                    let reach = (DVec3::ONE - n * n).max(DVec3::ZERO);
+                    let reach = DVec3::new(reach.x.sqrt(), reach.y.sqrt(), reach.z.sqrt());
+                    let reach = reach * radius_m + world.hair_m();
+                    corners.push([receiver.position - reach, receiver.position + reach]);
+                    things.push(Counter::Disc { section });
+                    section += 1;
+                }
+                Target::Cell { grid, .. } => {
+                    let of_grid = cells_of_a_grid(receivers, section);
+                    let plane = GridPlane::new(world, &grid);
+                    let cell = |section: usize| match receivers[section].target {
+                        Target::Cell { cell, .. } => cell,
+                        Target::Point { .. } => 0,
+                    };
+                    let sections = of_grid.clone().map(|it| (cell(it), it)).collect();
+                    let margin = 2.0 * world.hair_m();
+                    let edges = [DVec3::ZERO, grid.u, grid.v, grid.u + grid.v];
+                    let places = edges.map(|edge| grid.origin + edge);
+                    let low = places.into_iter().fold(DVec3::INFINITY, DVec3::min) - margin;
+                    let high = places.into_iter().fold(DVec3::NEG_INFINITY, DVec3::max) + margin;
+                    corners.push([low, high]);
+                    let behind = plane.behind();
+                    things.push(Counter::Cells { plane, behind, sections });
+                    section = of_grid.end;
+                }
+            }
+        }
+        Self { boxes: BoxTree::new(&corners), things }
+    }
+
+    /// Tells of all targets that a photon crosses on a flight.
+    pub(super) fn cross<S: Spectrum>(
+        &self,
+        engine: &Engine<'_, '_, S>,
+        receivers: &[&Receiver],
+        passing: &Passing<'_, S>,
+        mut take: impl FnMut(Crossing<S>),
+    ) {
+        let flight = &passing.flight;
+        if engine.context.max_bounces.is_some_and(|most| passing.bounces > most) {
+            return;
+        }
+        self.boxes.on_segment(flight.from, flight.direction, flight.length_m, |thing| {
+            match &self.things[thing as usize] {
+                Counter::Disc { section } => {
+                    let receiver = receivers[*section];
+                    if passing.is_computed_at_points() {
+                        return;
+                    }
+                    let Some(along_m) = receiver.crossed_at(flight.from, flight.direction) else {
+                        return;
+                    };
+                    if along_m < flight.length_m {
+                        let light = share(engine, receiver, passing, along_m, receiver.n);
+                        take(Crossing { section: *section, light, bounces: passing.bounces });
+                    }
+                }
+                Counter::Cells { plane, behind, sections } => {
+                    for plane in std::iter::once(plane).chain(behind) {
+                        let Some(cell) = plane.cell(flight) else { continue };
+                        let Ok(own) = sections.binary_search_by_key(&cell, |(cell, _)| *cell)
+                        else {
+                            continue;
+                        };
+                        let section = sections[own].1;
+                        let receiver = receivers[section];
+                        let tilt = plane.tilt_factor(flight.direction);
+                        let along_m = plane.distance_m(flight);
+                        if tilt > 0.0 {
+                            let light = share(engine, receiver, passing, along_m, receiver.n);
+                            let light = light * tilt;
+                            take(Crossing { section, light, bounces: passing.bounces });
+                        }
+                    }
+                }
+            }
+        });
+    }
+}
+
+impl Receiver {
+    /// Where a line crosses its disc from its front.
+    fn crossed_at(&self, from: DVec3, direction: DVec3) -> Option<f64> {
+        let approach = self.n.dot(direction);
+        if approach >= 0.0 {
+            return None;
+        }
+        let along_m = (self.position - from).dot(self.n) / approach;
+        let radius_m = self.radius_m?;
+        let aside = from + direction * along_m - self.position;
+        (along_m > 0.0 && aside.length_squared() < radius_m * radius_m).then_some(along_m)
+    }
+}
+
+/// What a photon that crosses gives, in lx.
+fn share<S: Spectrum>(
+    engine: &Engine<'_, '_, S>,
+    receiver: &Receiver,
+    passing: &Passing<'_, S>,
+    along_m: f64,
+    n: DVec3,
+) -> S {
+    let plan = &engine.plan;
+    let direction = passing.flight.direction;
+    let position = passing.flight.from + direction * along_m;
+    let cos = -n.dot(direction);
+    let weights = passing.weights_at(engine, position, n, along_m, receiver.is_cell());
+    let (alone, is_narrow) = match passing.leg.last {
+        LastVertex::Light => (1.0, false),
+        LastVertex::Surface { cos: cos_there, is_narrow } => {
+            let distance_m = passing.distance_m(along_m);
+            let geometry_m2 = cos * cos_there / (distance_m * distance_m);
+            (plan.joins(receiver, geometry_m2), is_narrow)
+        }
+    };
+    let photons = plan.photons(receiver, is_narrow);
+    let others = weights.times(alone, 1.0).towards(cos * FRAC_1_PI);
+    let weight = photons / (photons + others);
+    passing.flux_lm * (weight / (receiver.area_m2 * plan.subpaths as f64))
+}
+
+/// The sections that follow one of a cell with others of the same grid, in ascending order of
+/// their cells.
+fn cells_of_a_grid(receivers: &[&Receiver], first: usize) -> Range<usize> {
+    let cell_after = |before: &Receiver, next: &Receiver| match (&before.target, &next.target) {
+        (Target::Cell { grid: a, cell: m }, Target::Cell { grid: b, cell: n }) => {
+            m < n && a.origin == b.origin && [a.u, a.v, a.normal] == [b.u, b.v, b.normal]
+                && a.counts == b.counts
+        }
+        _ => false,
+    };
+    let pairs = receivers[first..].windows(2);
+    let more = pairs.take_while(|pair| cell_after(pair[0], pair[1])).count();
+    first..first + more + 1
+}

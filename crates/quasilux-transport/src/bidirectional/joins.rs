@@ -1,0 +1,102 @@
+//! Light vertices joined to the target itself.
+//!
+//! Of the vertices of the light subpaths that a target is joined to, each is taken with a chance
+//! that hangs on the place of both alone, so it may stand in weights: certain where cosines over
+//! squared distance are large, else in proportion to them. They are drawn evenly along the list of
+//! all (systematic sampling), from one coordinate.
+
+use super::engine::Engine;
+use super::light_subpath::{LightVertex, is_narrow};
+use super::plan::Receiver;
+use crate::bsdf::TransportMode;
+use crate::path::subpath_weights::{of_connection, product};
+use crate::spectrum::Spectrum;
+use crate::world::RayOrigin;
+use crate::world::visibility::ShadowQueue;
+use glam::DVec3;
+use quasilux_bvh::RayQuery;
+use std::f64::consts::FRAC_1_PI;
+
+/// A place of a target that vertices are joined to.
+pub(super) struct Joiner<'r> {
+    pub(super) receiver: &'r Receiver,
+    pub(super) from: RayOrigin,
+    pub(super) n: DVec3,
+    /// How far it is to the next vertex that is taken, in chances.
+    pub(super) next: f64,
+}
+
+impl Joiner<'_> {
+    /// Asks for the light of some of these vertices.
+    pub(super) fn join<S: Spectrum>(
+        &mut self,
+        engine: &Engine<'_, '_, S>,
+        who: u32,
+        vertices: &[LightVertex<S>],
+        shadows: &mut ShadowQueue<S>,
+    ) {
+        let most = engine.context.max_bounces.unwrap_or(u32::MAX);
+        for vertex in vertices.iter().take_while(|it| it.bounces < most) {
+            let way = vertex.at.position - self.from.position();
+            let square_m2 = way.length_squared();
+            let (front, behind) = (self.n.dot(way), -vertex.at.n.dot(way));
+            if !(front > 0.0) {
+                continue;
+            }
+            let geometry_m2 = front * behind.abs() / (square_m2 * square_m2);
+            self.next -= self.receiver.join_probability(geometry_m2);
+            if self.next < 0.0 {
+                self.next += 1.0;
+                let distance_m = square_m2.sqrt();
+                let join = Join { direction: way / distance_m, distance_m, geometry_m2 };
+                join.ask(self, engine, who, vertex, shadows);
+            }
+        }
+    }
+}
+
+/// The edge between a target and a light vertex.
+struct Join {
+    /// Unit direction from the target.
+    direction: DVec3,
+    distance_m: f64,
+    /// Cosines over squared distance.
+    geometry_m2: f64,
+}
+
+impl Join {
+    fn ask<S: Spectrum>(
+        &self,
+        joiner: &Joiner<'_>,
+        engine: &Engine<'_, '_, S>,
+        who: u32,
+        vertex: &LightVertex<S>,
+        shadows: &mut ShadowQueue<S>,
+    ) {
+        let &Self { direction, distance_m, geometry_m2 } = self;
+        let LightVertex { at, frame, wo, flux_lm, bounces, weights } = vertex;
+        let bsdf = engine.context.world.bsdf(at);
+        let wi = frame.to_local(-direction);
+        if wi.z <= 0.0 && !(wi.z < 0.0 && bsdf.transmits()) {
+            return;
+        }
+        let scattered = bsdf.evaluate(*wo, wi, at.front, TransportMode::Importance);
+        let square_m2 = distance_m * distance_m;
+        let cos = joiner.n.dot(direction);
+        let joins = engine.plan.joins(joiner.receiver, geometry_m2);
+        let photons =
+            engine.plan.photons(joiner.receiver, is_narrow(bsdf));
+        let to_eye = product(bsdf.survival_pdf_sr(*wo, wi) * cos / square_m2, photons / joins);
+        let to_light = product(
+            cos * FRAC_1_PI * wi.z.abs() / square_m2,
+            weights.towards(bsdf.survival_pdf_sr(wi, *wo)) / joins,
+        );
+        let lx = geometry_m2 / joins * of_connection(to_eye, to_light);
+        let light = *flux_lm * scattered * lx;
+        let is_something = light.luminance() > 0.0 && light.luminance().is_finite();
+        if is_something {
+            let ray = joiner.from.shadow_ray(direction, distance_m, at.facet);
+            shadows.push_polyline(who, light, bounces + 1, RayQuery::NONE, |rays| rays.push(ray));
+        }
+    }
+}

@@ -1,0 +1,413 @@
+//! Light subpaths: photons from all lights that are traced once and serve all targets. They leave
+//! a vertex at each surface that is not specular, and pass the targets that their flights cross.
+//!
+//! Flat panes that let light straight through are no vertices: they lie on the edges between them.
+
+use super::engine::Engine;
+use super::sources::Photon;
+use crate::bsdf::{Bsdf, TransportMode};
+use crate::cutoff::MAX_EVENTS;
+use crate::lights::images::LightPathClass;
+use crate::lights::{Asking, EmitterPlace, LightKind, OutsideLight};
+use crate::path::subpath_weights::{SubpathWeights, product};
+use crate::spectrum::Spectrum;
+use crate::world::flight::Flight;
+use crate::world::frame::Frame;
+use crate::world::{Interaction, RayOrigin};
+use glam::DVec3;
+use quasilux_bvh::{Hit, RayQuery};
+use quasilux_sampling::Sampler;
+use std::ops::Range;
+
+/// A surface that a light subpath came to and that scatters into more than finitely many
+/// directions.
+pub(super) struct LightVertex<S> {
+    pub(super) at: Interaction,
+    pub(super) frame: Frame,
+    /// Unit direction that the light came from, in that frame.
+    pub(super) wo: DVec3,
+    /// Flux that arrives, in lm, were its subpath the only one.
+    pub(super) flux_lm: S,
+    /// Surfaces and panes before this one.
+    pub(super) bounces: u32,
+    pub(super) weights: SubpathWeights,
+}
+
+/// A light subpath on its way.
+struct LightSubpath<'p, S> {
+    /// Its number among those that travel together.
+    number: usize,
+    sampler: Sampler<'p>,
+    photon: Photon,
+    from: RayOrigin,
+    direction: DVec3,
+    flux_lm: S,
+    /// Surfaces and panes so far.
+    bounces: u32,
+    leg: Leg,
+}
+
+/// The way of a subpath since its last vertex.
+pub(super) struct Leg {
+    /// What it weighs, having left its last vertex; nothing is known before the first.
+    weights: SubpathWeights,
+    /// Before the last pane, in m.
+    distance_m: f64,
+    pub(super) last: LastVertex,
+    /// As those who gather see its way.
+    pub(super) class: LightPathClass,
+}
+
+/// What a leg begins at.
+#[derive(Clone, Copy)]
+pub(super) enum LastVertex {
+    Light,
+    Surface {
+        /// Cosine at which it left.
+        cos: f64,
+        is_narrow: bool,
+    },
+}
+
+/// A flight of a subpath, shown to the targets that it may cross.
+pub(super) struct Passing<'s, S> {
+    pub(super) flight: Flight,
+    pub(super) flux_lm: S,
+    pub(super) bounces: u32,
+    pub(super) leg: &'s Leg,
+    photon: &'s Photon,
+}
+
+/// Vertices of subpaths that were traced together.
+pub(super) struct LightSubpaths<S> {
+    vertices: Vec<LightVertex<S>>,
+    /// Those of each subpath.
+    own: Vec<Range<usize>>,
+    pub(super) rays: u64,
+    /// Cut on their way.
+    pub(super) endless: u64,
+}
+
+impl<S> LightSubpaths<S> {
+    /// Those of one.
+    pub(super) fn of(&self, subpath: usize) -> &[LightVertex<S>] {
+        &self.vertices[self.own[subpath].clone()]
+    }
+}
+
+impl<S: Spectrum> LightSubpaths<S> {
+    /// Traces a subpath for each sampler to its end, and shows all flights with the number of their
+    /// subpath.
+    pub(super) fn trace<'p>(
+        engine: &Engine<'_, '_, S>,
+        samplers: impl Iterator<Item = Sampler<'p>>,
+        mut pass: impl FnMut(usize, &Passing<'_, S>),
+    ) -> Self {
+        let world = &engine.context.world;
+        let mut travelling: Vec<LightSubpath<'_, S>> = Vec::new();
+        let mut count = 0;
+        for (number, sampler) in samplers.enumerate() {
+            count = number + 1;
+            travelling.extend(LightSubpath::new(engine, number, sampler));
+        }
+        let mut found: Vec<(usize, LightVertex<S>)> = Vec::new();
+        let (mut queries, mut hits, mut arrivals) = (Vec::new(), Vec::<Option<Hit>>::new(), Vec::new());
+        let mut rays = 0;
+        for _ in 0..MAX_EVENTS {
+            if travelling.is_empty() {
+                break;
+            }
+            queries.clear();
+            let query = |it: &LightSubpath<'_, S>| -> RayQuery { it.from.query(it.direction) };
+            queries.extend(travelling.iter().map(query));
+            world.trace_all(&queries, &mut hits, &mut arrivals);
+            rays += queries.len() as u64;
+            let mut arrivals = arrivals.iter();
+            travelling.retain_mut(|subpath| {
+                let at = arrivals.next().and_then(Option::as_ref);
+                pass(subpath.number, &subpath.passing(at));
+                at.is_some_and(|at| subpath.arrive(engine, at, &mut found))
+            });
+        }
+        found.sort_by_key(|(number, vertex)| (*number, vertex.bounces));
+        let mut own = vec![0..0; count];
+        for (place, (number, _)) in found.iter().enumerate() {
+            let range: &mut Range<usize> = &mut own[*number];
+            *range = if range.is_empty() { place..place + 1 } else { range.start..place + 1 };
+        }
+        let vertices = found.into_iter().map(|(_, vertex)| vertex).collect();
+        Self { vertices, own, rays, endless: travelling.len() as u64 }
+    }
+}
+
+impl<'p, S: Spectrum> LightSubpath<'p, S> {
+    fn new(engine: &Engine<'_, '_, S>, number: usize, mut sampler: Sampler<'p>) -> Option<Self> {
+        let photon = engine.sources.emit(&engine.context.world, &mut sampler)?;
+        let class = match photon.kind {
+            LightKind::Pointlike(light) => LightPathClass::Shown(light as u32),
+            LightKind::Luminaire(_) => LightPathClass::Straight,
+            LightKind::Emitters => LightPathClass::Found,
+            LightKind::WayIn(_) => LightPathClass::Outside,
+        };
+        let leg = Leg {
+            weights: SubpathWeights::default(),
+            distance_m: 0.0,
+            last: LastVertex::Light,
+            class,
+        };
+        let flux_lm = S::white() * photon.flux_lm;
+        let (from, direction) = (photon.emission.from, photon.emission.direction);
+        Some(Self { number, sampler, photon, from, direction, flux_lm, bounces: 0, leg })
+    }
+
+    fn passing(&self, at: Option<&Interaction>) -> Passing<'_, S> {
+        let length_m = at.map_or(f64::INFINITY, |at| at.distance_m);
+        let flight = Flight { from: self.from.position(), direction: self.direction, length_m };
+        let Self { flux_lm, bounces, leg, photon, .. } = self;
+        Passing { flight, flux_lm: *flux_lm, bounces: *bounces, leg, photon }
+    }
+
+    /// What happens where its flight ends; whether it goes on.
+    fn arrive(
+        &mut self,
+        engine: &Engine<'_, '_, S>,
+        at: &Interaction,
+        found: &mut Vec<(usize, LightVertex<S>)>,
+    ) -> bool {
+        let context = engine.context;
+        if context.max_bounces.is_some_and(|most| self.bounces >= most) {
+            return false;
+        }
+        let (world, bsdf, frame) =
+            (&context.world, context.world.bsdf(at), context.world.frame(at));
+        let wo = frame.to_local(-self.direction);
+        let left = self.flux_lm.max_channel();
+        // What is not a number is left to the eye subpaths, which show it.
+        if !(left > 0.0 && left.is_finite()) {
+            return false;
+        }
+        let next = |sampler: &mut Sampler<'_>| {
+            bsdf.sample(wo, at.front, TransportMode::Importance, sampler)
+        };
+        if bsdf.is_specular() {
+            let Some(next) = next(&mut self.sampler) else { return false };
+            let goes_straight = next.wi.z < 0.0 && bsdf.straight_transmittance(1.0).is_some();
+            if goes_straight {
+                self.leg.distance_m += at.distance_m;
+            } else {
+                let weights = self.weights_at(engine, at, bsdf, wo.z);
+                let last = LastVertex::Surface { cos: next.wi.z.abs(), is_narrow: true };
+                let weights = weights.mirrored(next.wi.z.abs());
+                self.leg = Leg { weights, distance_m: 0.0, last, class: self.leg.class };
+            }
+            self.leg.class =
+                self.leg.class.after(&context.images, bsdf, at.facet, next.wi.z > 0.0);
+            return self.go_on(engine, at, &frame, next.wi, next.weight);
+        }
+        let weights = self.weights_at(engine, at, bsdf, wo.z);
+        let (flux_lm, bounces) = (self.flux_lm, self.bounces);
+        found.push((self.number, LightVertex { at: *at, frame, wo, flux_lm, bounces, weights }));
+        let Some(next) = next(&mut self.sampler) else { return false };
+        let cos = next.wi.z.abs();
+        let pdfs_sr = [bsdf.survival_pdf_sr(wo, next.wi), bsdf.survival_pdf_sr(next.wi, wo)];
+        let weights = weights.scattered(cos, pdfs_sr[0], pdfs_sr[1]);
+        let last = LastVertex::Surface { cos, is_narrow: is_narrow(bsdf) };
+        self.leg = Leg { weights, distance_m: 0.0, last, class: LightPathClass::Found };
+        self.go_on(engine, at, &frame, next.wi, next.weight)
+    }
+
+    /// Survives as its weight says, and leaves.
+    fn go_on(
+        &mut self,
+        engine: &Engine<'_, '_, S>,
+        at: &Interaction,
+        frame: &Frame,
+        wi: DVec3,
+        weight: S,
+    ) -> bool {
+        let world = &engine.context.world;
+        let survival = weight.max_channel().min(1.0);
+        if !self.sampler.choose_bool(survival) {
+            return false;
+        }
+        self.flux_lm = self.flux_lm * weight * survival.recip();
+        self.bounces += 1;
+        self.from = if wi.z > 0.0 { world.ray_origin(at) } else { world.ray_origin_behind(at) };
+        self.direction = frame.to_world(wi);
+        true
+    }
+
+    /// What it weighs where it arrives at a vertex.
+    fn weights_at(
+        &self,
+        engine: &Engine<'_, '_, S>,
+        at: &Interaction,
+        bsdf: &Bsdf<S>,
+        cos: f64,
+    ) -> SubpathWeights {
+        let takes_both_sides = bsdf.transmits();
+        let landing = Landing {
+            place: Asking {
+                position: at.position,
+                side: (!takes_both_sides).then_some(at.n),
+                own: Some(at.facet),
+            },
+            n: at.n,
+            distance_m: self.leg.distance_m + at.distance_m,
+            direction: self.direction,
+            cos,
+            is_cell: false,
+        };
+        match self.leg.last {
+            LastVertex::Light if bsdf.is_specular() => landing.on_mirror(engine, &self.photon),
+            LastVertex::Light => landing.of_photon(engine, &self.photon),
+            LastVertex::Surface { .. } => self.leg.weights.arrived(landing.distance_m, cos),
+        }
+    }
+}
+
+impl<S: Spectrum> Passing<'_, S> {
+    /// Whether it comes straight from a light without an extent, perhaps by mirrors that show it.
+    pub(super) fn is_computed_at_points(&self) -> bool {
+        matches!(self.leg.class, LightPathClass::Shown(_))
+    }
+
+    /// The distance in m since the last vertex, after this part of the flight.
+    pub(super) fn distance_m(&self, along_m: f64) -> f64 {
+        self.leg.distance_m + along_m
+    }
+
+    /// What its subpath weighs at a target that it crosses there.
+    pub(super) fn weights_at(
+        &self,
+        engine: &Engine<'_, '_, S>,
+        position: DVec3,
+        n: DVec3,
+        along_m: f64,
+        is_cell: bool,
+    ) -> SubpathWeights {
+        let cos = -n.dot(self.flight.direction);
+        let distance_m = self.distance_m(along_m);
+        match self.leg.last {
+            LastVertex::Light => {
+                let place = Asking { position, side: Some(n), own: None };
+                let direction = self.flight.direction;
+                let landing = Landing { place, n, distance_m, direction, cos, is_cell };
+                landing.of_photon(engine, self.photon)
+            }
+            LastVertex::Surface { .. } => self.leg.weights.arrived(distance_m, cos),
+        }
+    }
+}
+
+/// Where a photon lands straight from its light, panes between or not.
+struct Landing {
+    place: Asking,
+    n: DVec3,
+    distance_m: f64,
+    direction: DVec3,
+    cos: f64,
+    /// In a cell, where all lights without extent are asked.
+    is_cell: bool,
+}
+
+impl Landing {
+    /// On a surface that asks for light: the densities of doing so, and of running into the light,
+    /// over that of the photon.
+    fn of_photon<S: Spectrum>(
+        &self,
+        engine: &Engine<'_, '_, S>,
+        photon: &Photon,
+    ) -> SubpathWeights {
+        let Self { place, n, distance_m, direction, cos, is_cell } = *self;
+        let Engine { context, sources, .. } = engine;
+        let lights = &context.lights;
+        let (position, both) = (place.position, place.side.is_none());
+        match photon.kind {
+            LightKind::Pointlike(light) => {
+                let lx = lights.pointlikes.illuminance_lx(light, position, n, both);
+                let choice =
+                    if is_cell { 1.0 } else { lights.pointlikes.probability(light, place) };
+                SubpathWeights::new(choice / (sources.per_lm(photon.number) * lx), 0.0)
+            }
+            LightKind::Luminaire(light) => {
+                let own = photon.place.as_ref().and_then(|on_shape| {
+                    lights.area_luminaires.incidence(light, on_shape, position, |_| cos)
+                });
+                let Some(incidence) = own else { return SubpathWeights::default() };
+                let choice = lights.area_luminaires.probability(light, place);
+                let photons_m2 = sources.per_lm(photon.number) * incidence.illuminance_lx;
+                SubpathWeights::new(choice / photons_m2, 0.0)
+            }
+            LightKind::Emitters => {
+                let emission = Emission::of(engine, photon);
+                let asked = EmitterPlace { facet: emission.facet, position: emission.position };
+                let pdf_m2 = lights
+                    .emitters
+                    .as_ref()
+                    .map_or(0.0, |emitters| emitters.pdf_m2(&context.world, place, asked));
+                let square_m2 = distance_m * distance_m;
+                let vcm = product(pdf_m2, square_m2 / (emission.per_m2_sr * cos));
+                SubpathWeights::new(vcm, emission.cos / emission.per_m2_sr / cos)
+            }
+            LightKind::WayIn(_) => {
+                let of_sun = engine.is_of_sun(photon);
+                let per_m2 = sources.pdf_line(position, direction, of_sun) * cos;
+                let asked_sr = lights.outside.as_ref().map_or(0.0, |outside: &OutsideLight<'_>| {
+                    if of_sun {
+                        outside.sun_pdf_sr(-direction)
+                    } else {
+                        outside.pdf_sr(place, -direction)
+                    }
+                });
+                SubpathWeights::new(product(asked_sr, per_m2.recip()), per_m2.recip())
+            }
+        }
+    }
+
+    /// On a surface that asks for nothing.
+    fn on_mirror<S: Spectrum>(
+        &self,
+        engine: &Engine<'_, '_, S>,
+        photon: &Photon,
+    ) -> SubpathWeights {
+        match photon.kind {
+            LightKind::Pointlike(_) | LightKind::Luminaire(_) => SubpathWeights::default(),
+            LightKind::Emitters => {
+                let emission = Emission::of(engine, photon);
+                SubpathWeights::new(0.0, emission.cos / emission.per_m2_sr / self.cos)
+            }
+            LightKind::WayIn(_) => {
+                let of_sun = engine.is_of_sun(photon);
+                let per_m2_sr =
+                    engine.sources.pdf_line(self.place.position, self.direction, of_sun);
+                SubpathWeights::new(0.0, (per_m2_sr * self.cos).recip())
+            }
+        }
+    }
+}
+
+/// How a photon left an emitting facet.
+struct Emission {
+    facet: u32,
+    position: DVec3,
+    cos: f64,
+    per_m2_sr: f64,
+}
+
+impl Emission {
+    fn of<S: Spectrum>(engine: &Engine<'_, '_, S>, photon: &Photon) -> Self {
+        let (from, direction) = (photon.emission.from, photon.emission.direction);
+        let facet = from.facet().expect("it left a facet");
+        let on = &engine.context.world.facets[facet as usize];
+        let cos = on.front_normal.dot(direction);
+        let per_m2_sr = engine.sources.of_emitters_per_lm() * on.emitted_cd_m2 * cos;
+        Self { facet, position: from.position(), cos, per_m2_sr }
+    }
+}
+
+/// Whether a surface sends much of the light of a direction into few others, so that only photons
+/// are sure to find it.
+pub(super) fn is_narrow<S: Spectrum>(bsdf: &Bsdf<S>) -> bool {
+    !matches!(bsdf, Bsdf::Diffuse(_) | Bsdf::Translucent(_))
+}

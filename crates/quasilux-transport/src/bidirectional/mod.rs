@@ -1,0 +1,11 @@
+//! placeholder
+mod boxes;
+mod counters;
+mod engine;
+mod eye_path;
+mod joins;
+mod light_subpath;
+mod plan;
+mod sources;
+mod sums;
+mod unit;

@@ -1,0 +1,125 @@
+//! Numbers of samples of each technique, frozen before the first one, and how each target counts
+//! photons.
+//!
+//! For each index every target gets one eye path; the light subpaths of that index serve all
+//! targets. They are so many that tracing them costs about half of the eye paths, and each target
+//! is joined to the vertices of some of them: surely where a join gives much, else with a chance in
+//! proportion to it. Joins then cost no more than eye paths do either.
+
+use crate::context::Context;
+use crate::spectrum::Spectrum;
+use crate::stats::targets::Target;
+use crate::world::grid_plane::GridPlane;
+use glam::DVec3;
+use std::f64::consts::{PI, TAU};
+
+/// Light subpaths of an index: so many at least, and at most.
+const SUBPATHS: [u64; 2] = [4, 512];
+/// Light subpaths that a target is joined to for each of its eye paths.
+const JOINED: u64 = 8;
+/// Where only photons can bring some of the light, so many times as many.
+const MORE_WHERE_SPECULAR: u64 = 4;
+/// The radius of a disc in m, and as a share of the scene's size at most.
+const RADIUS_M: f64 = 0.1;
+const SHARE_OF_SIZE: f64 = 1.0 / 64.0;
+/// Directions in which walls are looked for in the plane of a disc.
+const LOOKS: u32 = 64;
+
+/// Numbers of samples for each index.
+#[derive(Clone, Debug)]
+pub(super) struct Plan {
+    /// Light subpaths, a power of two.
+    pub(super) subpaths: u64,
+    /// Those of them that a target is joined to, a power of two.
+    pub(super) joined: u64,
+    pub(super) receivers: Vec<Receiver>,
+}
+
+/// How photons are counted at a target, and joined to it.
+#[derive(Clone, Debug)]
+pub(super) struct Receiver {
+    pub(super) target: Target,
+    pub(super) position: DVec3,
+    /// Unit normal of the side that counts.
+    pub(super) n: DVec3,
+    /// Of the disc or the cell that photons are counted on.
+    pub(super) area_m2: f64,
+    /// Of a disc.
+    pub(super) radius_m: Option<f64>,
+    /// Cosines over squared distance, in m^-2, from which on a join is made for certain.
+    pub(super) sure_m2: f64,
+}
+
+impl Plan {
+    pub(super) fn new<S: Spectrum>(context: &Context<'_, S>, targets: &[Target]) -> Self {
+        let world = &context.world;
+        let area_m2: f64 = world.facets.iter().map(|facet| facet.area_m2()).sum();
+        let receivers = targets.iter().map(|it| Receiver::new(context, it, area_m2)).collect();
+        let more = if world.has_specular_facets() { MORE_WHERE_SPECULAR } else { 1 };
+        let [least, most] = SUBPATHS;
+        let subpaths = (targets.len() as u64 * more).next_power_of_two().clamp(least, most);
+        Self { subpaths, joined: subpaths.min(JOINED), receivers }
+    }
+
+    /// The first of the light subpaths that a target is joined to.
+    pub(super) fn first_joined(&self, target: usize) -> u64 {
+        (target as u64 % (self.subpaths / self.joined)) * self.joined
+    }
+
+    /// The light subpath that eye paths of a target are connected to.
+    pub(super) fn connected(&self, target: usize) -> u64 {
+        target as u64 % self.subpaths
+    }
+
+    /// Photons that count in weights, for each eye path, where the last surface is narrow or not,
+    /// over those that land on a square metre.
+    pub(super) fn photons(&self, receiver: &Receiver, is_narrow: bool) -> f64 {
+        receiver.area_m2 * if is_narrow { self.subpaths as f64 } else { 1.0 }
+    }
+
+    /// Joins that are made of a light vertex, on average, for each eye path.
+    pub(super) fn joins(&self, receiver: &Receiver, geometry_m2: f64) -> f64 {
+        self.joined as f64 * receiver.join_probability(geometry_m2)
+    }
+}
+
+impl Receiver {
+    fn new<S: Spectrum>(context: &Context<'_, S>, target: &Target, area_m2: f64) -> Self {
+        let world = &context.world;
+        // About one join for each light subpath where its vertices lie evenly.
+        let sure_m2 = TAU / area_m2.max(f64::MIN_POSITIVE);
+        match *target {
+            Target::Point { position, normal: n } => {
+                let from = world.ray_origin_of_sensor(position, n);
+                let most_m = RADIUS_M.min(SHARE_OF_SIZE * world.size_m());
+                let across = n.any_orthonormal_vector();
+                let beside = n.cross(across);
+                let free_m = (0..LOOKS).map(|look| {
+                    let (sin, cos) = libm::sincos(TAU * f64::from(look) / f64::from(LOOKS));
+                    let hit = world.trace(from, across * cos + beside * sin);
+                    hit.map_or(f64::INFINITY, |at| at.distance_m)
+                });
+                let radius_m = free_m.fold(most_m, f64::min).max(world.hair_m());
+                let area_m2 = PI * radius_m * radius_m;
+                let (target, radius_m) = (*target, Some(radius_m));
+                Self { target, position: from.position(), n, area_m2, radius_m, sure_m2 }
+            }
+            Target::Cell { grid, cell } => {
+                let area_m2 = GridPlane::new(world, &grid).cell_area_m2();
+                let position = grid.point_in_cell(cell, [0.5; 2]);
+                let n = grid.normal;
+                let radius_m = None;
+                Self { target: *target, position, n, area_m2, radius_m, sure_m2 }
+            }
+        }
+    }
+
+    /// The chance of a join, by its cosines over squared distance.
+    pub(super) fn join_probability(&self, geometry_m2: f64) -> f64 {
+        (geometry_m2 / self.sure_m2).min(1.0)
+    }
+
+    pub(super) fn is_cell(&self) -> bool {
+        self.radius_m.is_none()
+    }
+}

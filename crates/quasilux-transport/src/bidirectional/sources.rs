@@ -1,0 +1,90 @@
+//! Which light a photon leaves: half of the choices go by flux, half evenly, so that a faint lamp
+//! is never left out beside bright ones.
+
+use crate::lights::{Emission, Emitted, Line, LightKind, Lights};
+use crate::spectrum::Spectrum;
+use crate::world::World;
+use glam::DVec3;
+use quasilux_photometry::SurfacePoint;
+use quasilux_sampling::{Discrete, Sampler};
+
+/// The share of the photons that lights get evenly.
+const EVENLY: f64 = 0.5;
+
+/// All lights, as photons leave them.
+pub(super) struct Sources<'l, 'a> {
+    lights: &'l Lights<'a>,
+    choice: Option<Discrete>,
+}
+
+/// A photon that has just left its light.
+pub(super) struct Photon {
+    pub(super) kind: LightKind,
+    pub(super) number: usize,
+    pub(super) emission: Emission,
+    /// Where on its shape, of a luminaire with an area.
+    pub(super) place: Option<SurfacePoint>,
+    /// The flux that it stands for, were it the only one, in lm.
+    pub(super) flux_lm: f64,
+}
+
+impl<'l, 'a> Sources<'l, 'a> {
+    pub(super) fn new(lights: &'l Lights<'a>) -> Self {
+        let fluxes_lm: Vec<f64> = (0..lights.len()).map(|it| lights.flux_of_lm(it)).collect();
+        let all_lm: f64 = fluxes_lm.iter().sum();
+        let shining = fluxes_lm.iter().filter(|flux_lm| **flux_lm > 0.0).count() as f64;
+        let share = |flux_lm: &f64| match *flux_lm > 0.0 {
+            true => (1.0 - EVENLY) * flux_lm / all_lm + EVENLY / shining,
+            false => 0.0,
+        };
+        Self { lights, choice: Discrete::new(&fluxes_lm.iter().map(share).collect::<Vec<f64>>()) }
+    }
+
+    /// The share of the photons of one light.
+    pub(super) fn share(&self, number: usize) -> f64 {
+        self.choice.as_ref().map_or(0.0, |choice| choice.pdf(number))
+    }
+
+    /// Photons for each lumen of a lamp: its share over its flux.
+    pub(super) fn per_lm(&self, number: usize) -> f64 {
+        self.share(number) / self.lights.flux_of_lm(number)
+    }
+
+    /// Those for each lumen of a luminaire with an area.
+    pub(super) fn of_luminaire_per_lm(&self, number: usize) -> f64 {
+        self.per_lm(self.lights.pointlikes.len() + number)
+    }
+
+    /// Those for each lumen of the emitting facets.
+    pub(super) fn of_emitters_per_lm(&self) -> f64 {
+        self.per_lm(self.lights.pointlikes.len() + self.lights.area_luminaires.iter().count())
+    }
+
+    /// Density in m^-2 sr^-1, across the line and over directions, of photons from outside along a
+    /// line, of the sun or of all else.
+    pub(super) fn pdf_line(&self, point: DVec3, direction: DVec3, of_sun: bool) -> f64 {
+        let Some((outside, ways)) = self.lights.ways_in() else { return 0.0 };
+        let line = Line { point, direction, of_sun };
+        let of = |number: usize| match self.lights.kind(number) {
+            LightKind::WayIn(way) => self.share(number) * ways.pdf_line(outside, way, &line),
+            _ => 0.0,
+        };
+        (0..self.lights.len()).map(of).sum()
+    }
+
+    /// A photon, by two coordinates and more for lights with an area.
+    pub(super) fn emit<S: Spectrum>(
+        &self,
+        world: &World<S>,
+        sampler: &mut Sampler<'_>,
+    ) -> Option<Photon> {
+        let choice = sampler.choose_leading(self.choice.as_ref()?);
+        let u = [sampler.remapped_1d(), sampler.next_1d()];
+        let number = choice.index;
+        let chosen = crate::lights::Chosen { number, u };
+        let Emitted { emission, share, place, .. } =
+            self.lights.emit_from(chosen, world, Default::default(), sampler)?;
+        let flux_lm = share * self.lights.flux_of_lm(number) / choice.pdf;
+        Some(Photon { kind: self.lights.kind(number), number, emission, place, flux_lm })
+    }
+}

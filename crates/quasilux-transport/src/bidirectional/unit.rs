@@ -1,0 +1,198 @@
+//! A unit of the work: some targets, in one replicate, with a few indices that follow each other.
+//!
+//! The light subpaths of these indices are traced once; they are counted where they cross the
+//! targets, joined to them, and connected to their eye paths.
+
+use super::counters::{Counters, Crossing};
+use super::engine::Engine;
+use super::eye_path::{EyePaths, Found, Start};
+use super::joins::Joiner;
+use super::light_subpath::LightSubpaths;
+use super::plan::Receiver;
+use super::sums::TargetSums;
+use crate::context::Stream;
+use crate::path::sections::WorkCounts;
+use crate::path::wave::WAVE;
+use crate::spectrum::Spectrum;
+use crate::stats::tally::Quantum;
+use crate::stats::targets::Target;
+use crate::world::visibility::ShadowQueue;
+use quasilux_sampling::{PointSet, Sampler};
+use std::array;
+use std::ops::Range;
+
+/// Indices of a unit at most, and the first is a multiple: an eye path is connected to the light
+/// subpaths of another of them.
+pub(super) const INDICES: u64 = 16;
+
+/// Some targets with some indices in one replicate.
+pub(super) struct Unit<'t> {
+    pub(super) replicate: u32,
+    /// All within the same [`INDICES`].
+    pub(super) indices: Range<u64>,
+    /// In ascending order.
+    pub(super) targets: &'t [usize],
+}
+
+/// What came of a unit.
+pub(super) struct UnitSums {
+    /// Of each target.
+    pub(super) sums: Vec<TargetSums>,
+    pub(super) work: WorkCounts,
+    pub(super) photons: u64,
+}
+
+impl Unit<'_> {
+    pub(super) fn trace<S: Spectrum>(
+        &self,
+        engine: &Engine<'_, '_, S>,
+        quantum: Quantum,
+    ) -> UnitSums {
+        let Engine { context, plan, .. } = engine;
+        let receivers: Vec<&Receiver> =
+            self.targets.iter().map(|target| &plan.receivers[*target]).collect();
+        let empty = TargetSums::new(context.listed_terms);
+        let mut sums = vec![empty; self.targets.len()];
+        let first = self.indices.start / INDICES * INDICES;
+        let points = context.points(self.replicate, Stream::SharedSubpaths);
+        let samplers = (first * plan.subpaths..(first + INDICES) * plan.subpaths)
+            .map(|index| Sampler::new(&points, index));
+        let counters = Counters::new(&context.world, &receivers);
+        let index_of = |subpath: usize| first + subpath as u64 / plan.subpaths;
+        let light = LightSubpaths::trace(engine, samplers, |subpath, passing| {
+            if self.indices.contains(&index_of(subpath)) {
+                counters.cross(engine, &receivers, passing, |crossing| {
+                    let Crossing { section, light, bounces } = crossing;
+                    sums[section].add_merged(bounces, light.luminance(), quantum);
+                });
+            }
+        });
+        let mut work = WorkCounts { rays: light.rays, ..WorkCounts::default() };
+        work.endless += light.endless;
+        work.rays += self.join(engine, &receivers, &light, quantum, &mut sums);
+        let of_paths = self.gather(engine, &receivers, &light, quantum, &mut sums);
+        work += of_paths;
+        UnitSums { sums, work, photons: INDICES * plan.subpaths }
+    }
+
+    /// Joins light vertices to the targets; the number of rays.
+    fn join<S: Spectrum>(
+        &self,
+        engine: &Engine<'_, '_, S>,
+        receivers: &[&Receiver],
+        light: &LightSubpaths<S>,
+        quantum: Quantum,
+        sums: &mut [TargetSums],
+    ) -> u64 {
+        let Engine { context, plan, .. } = engine;
+        let world = &context.world;
+        let mut shadows = ShadowQueue::default();
+        shadows.max_bounces = context.max_bounces.unwrap_or(u32::MAX);
+        let mut asked = 0;
+        for (section, (target, receiver)) in self.targets.iter().zip(receivers).enumerate() {
+            let points = context.points(self.replicate, Stream::Joins(*target as u64));
+            let next = points.coordinate(self.indices.start, 2);
+            let (position, n) = (receiver.position, receiver.n);
+            let from = match receiver.target {
+                Target::Point { position, normal } => world.ray_origin_of_sensor(position, normal),
+                Target::Cell { .. } => world.ray_origin_of_sensor(position, n),
+            };
+            let mut joiner = Joiner { receiver, from, n, next };
+            for index in self.indices.clone() {
+                if let Target::Cell { grid, cell } = receiver.target {
+                    let u = [0, 1].map(|dimension| points.coordinate(index, dimension));
+                    joiner.from = world.ray_origin_of_sensor(grid.point_in_cell(cell, u), n);
+                }
+                let first = (index % INDICES * plan.subpaths + plan.first_joined(*target)) as usize;
+                for subpath in first..first + plan.joined as usize {
+                    joiner.join(engine, section as u32, light.of(subpath), &mut shadows);
+                }
+            }
+            asked += 1;
+            if asked % 64 == 0 || asked == receivers.len() {
+                shadows.answer(world, |who, light: S, bounces| {
+                    sums[who as usize].add(bounces, light.luminance(), quantum);
+                });
+            }
+        }
+        shadows.rays
+    }
+
+    /// Traces the eye paths.
+    fn gather<S: Spectrum>(
+        &self,
+        engine: &Engine<'_, '_, S>,
+        receivers: &[&Receiver],
+        light: &LightSubpaths<S>,
+        quantum: Quantum,
+        sums: &mut [TargetSums],
+    ) -> WorkCounts {
+        let Engine { context, plan, .. } = engine;
+        let partners = partners(self.indices.start / INDICES);
+        let mut paths = EyePaths::default();
+        let mut found = Found { sums, quantum };
+        let at_once = (WAVE / (self.indices.end - self.indices.start)).max(1) as usize;
+        for first in (0..self.targets.len()).step_by(at_once) {
+            let sections = first..(first + at_once).min(self.targets.len());
+            let stream = |section: usize| Stream::EyeSubpaths(self.targets[section] as u64);
+            let points: Vec<PointSet> = sections
+                .clone()
+                .map(|section| context.points(self.replicate, stream(section)))
+                .collect();
+            let starts = sections.zip(&points).flat_map(|(section, points)| {
+                let connected = plan.connected(self.targets[section]);
+                self.indices.clone().map(move |index| {
+                    let partner = partners[(index % INDICES) as usize];
+                    let subpath = partner * plan.subpaths + connected;
+                    Start {
+                        section,
+                        receiver: receivers[section],
+                        light_vertices: light.of(subpath as usize),
+                        sampler: Sampler::new(points, index),
+                    }
+                })
+            });
+            paths.trace(engine, starts, &mut found);
+        }
+        paths.work
+    }
+}
+
+/// Which index of a block each index is connected to: a permutation that is another one in each
+/// block.
+///
+/// At one index two point sets have the same digits, permuted: subpaths of the same index would
+/// have as few pairs of directions as there are permutations.
+fn partners(block: u64) -> [u64; INDICES as usize] {
+    let mut all: [u64; INDICES as usize] = array::from_fn(|index| index as u64);
+    let mut state = block;
+    for last in (1..all.len()).rev() {
+        // SplitMix64 (Steele, Lea and Flood 2014).
+        state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut mixed = state;
+        mixed = (mixed ^ mixed >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        mixed = (mixed ^ mixed >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
+        mixed ^= mixed >> 31;
+        all.swap(last, (mixed % (last as u64 + 1)) as usize);
+    }
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Each block is a permutation, and over many blocks each pair of indices comes about equally
+    /// often: 256 each with a standard deviation of 16.
+    #[test]
+    fn partners_are_all_indices_and_none_in_particular() {
+        let mut counts = [[0_u32; INDICES as usize]; INDICES as usize];
+        for block in 0..4096 {
+            let mut all = partners(block);
+            all.iter().enumerate().for_each(|(index, it)| counts[index][*it as usize] += 1);
+            all.sort_unstable();
+            assert!(all.into_iter().eq(0..INDICES));
+        }
+        assert!(counts.iter().flatten().all(|count| (176..336).contains(count)), "{counts:?}");
+    }
+}
