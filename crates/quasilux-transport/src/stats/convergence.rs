@@ -309,6 +309,7 @@ mod tests {
                     contradicted: vec![false; 2],
                     samples,
                     terms: Vec::new(),
+                    unseen: None,
                 }],
                 samples: n,
                 rays,
