@@ -180,6 +180,7 @@ fn scene_and_estimates(sensors: Vec<(Sensor, Vec<Vec<f64>>)>) -> (Scene, Estimat
         contradicted: vec![false; rows[0].len()],
         samples: vec![65_536; rows[0].len()],
         terms: Vec::new(),
+        unseen: None,
     });
     let estimates = Estimates {
         sensors: figures.collect(),
@@ -213,6 +214,7 @@ fn scene_and_estimates(sensors: Vec<(Sensor, Vec<Vec<f64>>)>) -> (Scene, Estimat
         unresolved_points: 0,
         relieved_points: 0,
         biased: false,
+        cannot_see: Vec::new(),
         warnings: Vec::new(),
     };
     let scene = Scene {
