@@ -47,7 +47,7 @@ impl Request {
         let all = EstimatorKind::ALL.into_iter();
         let mut estimators: Vec<EstimatorKind> = all.filter(|kind| given(kind.name())).collect();
         if estimators.is_empty() {
-            estimators = vec![EstimatorKind::Path, EstimatorKind::Bidirectional];
+            estimators = vec![EstimatorKind::Path, EstimatorKind::Selected];
         }
         let names = ["cube", "office", "spotlights", "wall"];
         let all = !names.iter().any(|name| given(name));
@@ -85,7 +85,7 @@ fn main() {
                 "{:>9}{:>14}{:>10}{:>14}{:>14}{:>8}{:>12}",
                 "indices", "rays", "seconds", "one, %", "mean, %", "slope", "efficiency"
             );
-            if estimator != EstimatorKind::Bidirectional {
+            if estimator != EstimatorKind::Selected {
                 settings.connections = Switch::Auto;
             }
             let mut table = Table { start: all_processors_seconds(), errors: Vec::new() };

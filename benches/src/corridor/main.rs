@@ -54,8 +54,8 @@ const CONTESTANTS: [Contestant; 7] = [
     contestant("photon-steered", EstimatorKind::Photon, Switch::Auto),
     contestant("map", EstimatorKind::BidirectionalMap, Switch::Off),
     contestant("map-steered", EstimatorKind::BidirectionalMap, Switch::Auto),
-    contestant("bidirectional", EstimatorKind::Bidirectional, Switch::Off),
-    contestant("bidirectional-steered", EstimatorKind::Bidirectional, Switch::Auto),
+    contestant("bidirectional", EstimatorKind::Selected, Switch::Off),
+    contestant("bidirectional-steered", EstimatorKind::Selected, Switch::Auto),
 ];
 
 const fn contestant(

@@ -112,7 +112,8 @@ impl Web {
         }
     }
 
-    pub(crate) fn luminaire_from_table(self, direction: DVec3) -> DVec3 {
+    /// A direction of the luminaire frame from one of the frame of the table.
+    pub fn luminaire_from_table(self, direction: DVec3) -> DVec3 {
         let DVec3 { x, y, z } = direction;
         match self.0 {
             PhotometricType::C => DVec3::new(x, y, -z),

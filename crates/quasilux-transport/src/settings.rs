@@ -8,17 +8,21 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum EstimatorKind {
-    /// The ways of [`Self::Bidirectional`], beside bidirectional paths that share no pilot with
+    /// The ways of [`Self::Selected`], beside bidirectional paths that share no pilot with
     /// them: these take over the sensor points where the two disagree.
     Auto,
     /// Photons from the lights are counted by the sensors.
     Photon,
     /// Paths from the sensors with next-event estimation.
     Path,
+    /// Paths from the sensors and light subpaths that all of them share, connected, joined and
+    /// counted, weighed so that no sample adds more than any technique alone would: what no sample
+    /// met has a bound.
+    Bidirectional,
     /// Paths from the sensors beside photons that are connected to them, or paths that end on a
     /// frozen illumination map, corrected so that its elements cause no bias, or paths alone: what
     /// pilots find best.
-    Bidirectional,
+    Selected,
     /// The form of Voloboy, Dmitriev and Kopylov (2003): paths end on the map, whose finite
     /// elements leave a bias.
     BidirectionalMap,
@@ -26,13 +30,19 @@ pub enum EstimatorKind {
 
 impl EstimatorKind {
     /// All of them.
-    pub const ALL: [Self; 5] =
-        [Self::Auto, Self::Photon, Self::Path, Self::Bidirectional, Self::BidirectionalMap];
+    pub const ALL: [Self; 6] = [
+        Self::Auto,
+        Self::Photon,
+        Self::Path,
+        Self::Bidirectional,
+        Self::Selected,
+        Self::BidirectionalMap,
+    ];
 
     /// Whether pilots select between paths alone, on a frozen map and beside connected photons.
     #[must_use]
     pub fn is_selected_by_pilots(self) -> bool {
-        matches!(self, Self::Auto | Self::Bidirectional)
+        matches!(self, Self::Auto | Self::Selected)
     }
 
     /// The name in project files, on the command line and in results.
@@ -43,6 +53,7 @@ impl EstimatorKind {
             Self::Photon => "photon",
             Self::Path => "path",
             Self::Bidirectional => "bidirectional",
+            Self::Selected => "selected",
             Self::BidirectionalMap => "bidirectional-map",
         }
     }
@@ -240,7 +251,7 @@ pub struct Settings {
     pub map_photons: u32,
     /// Coordinates that a photon may have used when it lands on a map that paths end on, the
     /// balance of Voloboy, Dmitriev and Kopylov (2003): later events, which quasi-random points do
-    /// least for, are left out. [`EstimatorKind::Bidirectional`] finds their light by its
+    /// least for, are left out. [`EstimatorKind::Selected`] finds their light by its
     /// correction, [`EstimatorKind::BidirectionalMap`] goes without; `None` leaves nothing out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub map_dimensions: Option<u32>,
@@ -251,7 +262,7 @@ pub struct Settings {
     /// that helps the sensors; else they keep equal flux.
     pub importance: Switch,
     /// Whether photons are connected to the sensors beside the paths of
-    /// [`EstimatorKind::Bidirectional`]; with `Off` these end on a frozen map, which is corrected,
+    /// [`EstimatorKind::Selected`]; with `Off` these end on a frozen map, which is corrected,
     /// where two bounces or more are wanted. A first shot that is to be on, and `map_dimensions`,
     /// leave `Auto` the map alone, and `importance` that is to be on the connected photons.
     pub connections: Switch,
@@ -264,7 +275,7 @@ impl Settings {
         self.rel_tol > 0.0 || self.abs_tol_lx > 0.0
     }
 
-    /// Whether [`EstimatorKind::Bidirectional`] connects photons to the sensors, where that is
+    /// Whether [`EstimatorKind::Selected`] connects photons to the sensors, where that is
     /// settled before a pilot: photons that are to leave lit places, or to be left out, are those
     /// of maps; those that are to be guided are connected.
     #[must_use]

@@ -114,13 +114,6 @@ impl BoxTree {
     }
 }
 
-impl BoxNode {
-    /// The least distance of a place to it, in m.
-    pub(super) fn distance_m(&self, place: DVec3) -> f64 {
-        (place - place.clamp(self.low, self.high)).length()
-    }
-}
-
 fn around(corners: &[[DVec3; 2]], things: &[u32]) -> BoxNode {
     let boxes = things.iter().map(|thing| corners[*thing as usize]);
     let empty = [DVec3::INFINITY, DVec3::NEG_INFINITY];

@@ -2,7 +2,7 @@
 //! vertices of a light subpath.
 
 use super::engine::Engine;
-use super::light_subpath::{LightVertex, is_narrow};
+use super::light_subpath::{LightSubpaths, LightVertex, is_narrow};
 use super::plan::Receiver;
 use super::sums::TargetSums;
 use crate::bsdf::TransportMode;
@@ -28,8 +28,9 @@ pub(super) struct Start<'p, S> {
     /// Number of its sums.
     pub(super) section: usize,
     pub(super) receiver: &'p Receiver,
-    /// Of the light subpath that it is connected to.
-    pub(super) light_vertices: &'p [LightVertex<S>],
+    pub(super) light: &'p LightSubpaths<S>,
+    /// That of the light subpaths which it is connected to.
+    pub(super) subpath: usize,
     pub(super) sampler: Sampler<'p>,
 }
 
@@ -48,7 +49,8 @@ struct EyePath<'p, S> {
     number: u32,
     section: usize,
     receiver: &'p Receiver,
-    light_vertices: &'p [LightVertex<S>],
+    light: &'p LightSubpaths<S>,
+    subpath: usize,
     sampler: Sampler<'p>,
     from: RayOrigin,
     /// Unit direction in which it goes on.
@@ -159,7 +161,7 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
         start: Start<'p, S>,
         work: &mut EyePaths<S>,
     ) -> Self {
-        let Start { section, receiver, light_vertices, mut sampler } = start;
+        let Start { section, receiver, light, subpath, mut sampler } = start;
         let context = engine.context;
         let (position, n) = match receiver.target {
             Target::Point { position, normal } => (position, normal),
@@ -175,7 +177,8 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
             number,
             section,
             receiver,
-            light_vertices,
+            light,
+            subpath,
             sampler,
             from,
             direction,
@@ -503,9 +506,8 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
         }
     }
 
-    /// Asks for the light of its light subpath by one of the vertices, chosen in proportion to
-    /// what each would give: the choice is no part of weights, and its only variance is that of
-    /// shadows.
+    /// Asks for the light of its light subpath by one of the vertices, chosen in proportion to its
+    /// flux and to the geometry between: the choice is no part of weights.
     fn connect(
         &mut self,
         engine: &Engine<'_, '_, S>,
@@ -513,19 +515,20 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
         work: &mut EyePaths<S>,
     ) {
         let most = engine.context.max_bounces.unwrap_or(u32::MAX);
-        let counts = |it: &&LightVertex<S>| self.bounces_asked + it.bounces < most;
-        let own = self.light_vertices.iter().take_while(counts);
-        let connections: Vec<Connection<'_, S>> =
-            own.filter_map(|it| asker.connection(engine, it)).collect();
-        if self.light_vertices.is_empty() {
+        let bounces = self.bounces_asked;
+        let own = self.light.of(self.subpath).take_while(|it| bounces + it.bounces < most);
+        if own.clone().next().is_none() {
             return;
         }
         let u = self.sampler.next_1d();
-        let Some(choice) = choose_weights(u, connections.iter().map(|it| it.light.luminance()))
+        let worth = own.clone().map(|light_vertex| asker.worth(engine, light_vertex));
+        let Some(choice) = choose_weights(u, worth) else { return };
+        let connection = own.clone().nth(choice.index);
+        let Some(Connection { vertex, direction, distance_m, light }) =
+            connection.and_then(|it| asker.connection(engine, it))
         else {
             return;
         };
-        let Connection { vertex, direction, distance_m, light } = connections[choice.index];
         let from = asker.vertex.ray_origin(direction);
         let ray = from.shadow_ray(direction, distance_m, vertex.at.facet);
         let (light, bounces) = (light * choice.pdf.recip(), vertex.bounces + 1);
@@ -556,6 +559,19 @@ impl<S: Spectrum> Asker<'_, '_, S> {
         let landings = per_lm * sample.illuminance_lx / pdf;
         let share = of_connection(product(landings, self.to_eye(sample.direction)), 0.0);
         LightSample { light: sample.light * (share / pdf), ..sample }
+    }
+
+    /// Flux of a light vertex, cosines and squared distance: 0 where one of the two turns its back
+    /// on the other.
+    fn worth(&self, engine: &Engine<'_, '_, S>, light_vertex: &LightVertex<S>) -> f64 {
+        let way = light_vertex.at.position - self.vertex.position();
+        let square_m2 = way.length_squared();
+        let (cos, cos_there) = (self.vertex.cos(way), -light_vertex.at.n.dot(way));
+        let takes_both_sides = || engine.context.world.bsdf(&light_vertex.at).transmits();
+        let cos_there =
+            if cos_there < 0.0 && takes_both_sides() { -cos_there } else { cos_there };
+        let flux_lm = light_vertex.flux_lm.luminance();
+        flux_lm * cos.max(0.0) * cos_there.max(0.0) / (square_m2 * square_m2)
     }
 
     /// `None` where one of the two turns its back on the other.

@@ -24,19 +24,21 @@ pub(super) struct Joiner<'r> {
     pub(super) n: DVec3,
     /// How far it is to the next vertex that is taken, in chances.
     pub(super) next: f64,
+    /// Whether it asks for their light.
+    pub(super) is_asking: bool,
 }
 
 impl Joiner<'_> {
     /// Asks for the light of some of these vertices.
-    pub(super) fn join<S: Spectrum>(
+    pub(super) fn join<'v, S: Spectrum>(
         &mut self,
         engine: &Engine<'_, '_, S>,
         who: u32,
-        vertices: &[LightVertex<S>],
+        vertices: impl Iterator<Item = &'v LightVertex<S>>,
         shadows: &mut ShadowQueue<S>,
     ) {
         let most = engine.context.max_bounces.unwrap_or(u32::MAX);
-        for vertex in vertices.iter().take_while(|it| it.bounces < most) {
+        for vertex in vertices.take_while(|it| it.bounces < most) {
             let way = vertex.at.position - self.from.position();
             let square_m2 = way.length_squared();
             let (front, behind) = (self.n.dot(way), -vertex.at.n.dot(way));
@@ -47,6 +49,9 @@ impl Joiner<'_> {
             self.next -= self.receiver.join_probability(geometry_m2);
             if self.next < 0.0 {
                 self.next += 1.0;
+                if !self.is_asking {
+                    continue;
+                }
                 let distance_m = square_m2.sqrt();
                 let join = Join { direction: way / distance_m, distance_m, geometry_m2 };
                 join.ask(self, engine, who, vertex, shadows);

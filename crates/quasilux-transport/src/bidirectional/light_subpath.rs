@@ -81,7 +81,9 @@ pub(super) struct Passing<'s, S> {
 /// Vertices of subpaths that were traced together.
 pub(super) struct LightSubpaths<S> {
     vertices: Vec<LightVertex<S>>,
-    /// Those of each subpath.
+    /// Where they are, by their subpaths.
+    order: Vec<u32>,
+    /// Those of each subpath in that.
     own: Vec<Range<usize>>,
     pub(super) rays: u64,
     /// Cut on their way.
@@ -89,9 +91,9 @@ pub(super) struct LightSubpaths<S> {
 }
 
 impl<S> LightSubpaths<S> {
-    /// Those of one.
-    pub(super) fn of(&self, subpath: usize) -> &[LightVertex<S>] {
-        &self.vertices[self.own[subpath].clone()]
+    /// Those of one, in the order in which it met them.
+    pub(super) fn of(&self, subpath: usize) -> impl Iterator<Item = &LightVertex<S>> + Clone {
+        self.order[self.own[subpath].clone()].iter().map(|place| &self.vertices[*place as usize])
     }
 }
 
@@ -129,14 +131,20 @@ impl<S: Spectrum> LightSubpaths<S> {
                 at.is_some_and(|at| subpath.arrive(engine, at, &mut found))
             });
         }
-        found.sort_by_key(|(number, vertex)| (*number, vertex.bounces));
-        let mut own = vec![0..0; count];
-        for (place, (number, _)) in found.iter().enumerate() {
-            let range: &mut Range<usize> = &mut own[*number];
-            *range = if range.is_empty() { place..place + 1 } else { range.start..place + 1 };
-        }
+        let numbers: Vec<usize> = found.iter().map(|(number, _)| *number).collect();
         let vertices = found.into_iter().map(|(_, vertex)| vertex).collect();
-        Self { vertices, own, rays, endless: travelling.len() as u64 }
+        let mut own = vec![0..0; count];
+        numbers.iter().for_each(|number| own[*number].end += 1);
+        let mut first = 0;
+        for range in &mut own {
+            (first, *range) = (first + range.end, first..first);
+        }
+        let mut order = vec![0; numbers.len()];
+        for (place, number) in numbers.into_iter().enumerate() {
+            order[own[number].end] = place as u32;
+            own[number].end += 1;
+        }
+        Self { vertices, order, own, rays, endless: travelling.len() as u64 }
     }
 }
 
@@ -178,8 +186,7 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
         if context.max_bounces.is_some_and(|most| self.bounces >= most) {
             return false;
         }
-        let (world, bsdf, frame) =
-            (&context.world, context.world.bsdf(at), context.world.frame(at));
+        let (bsdf, frame) = (context.world.bsdf(at), context.world.frame(at));
         let wo = frame.to_local(-self.direction);
         let left = self.flux_lm.max_channel();
         // What is not a number is left to the eye subpaths, which show it.

@@ -18,6 +18,7 @@ use crate::stats::tally::Quantum;
 use crate::stats::targets::Target;
 use crate::world::visibility::ShadowQueue;
 use quasilux_sampling::{PointSet, Sampler};
+use serde::{Deserialize, Serialize};
 use std::array;
 use std::ops::Range;
 
@@ -35,6 +36,7 @@ pub(super) struct Unit<'t> {
 }
 
 /// What came of a unit.
+#[derive(Serialize, Deserialize)]
 pub(super) struct UnitSums {
     /// Of each target.
     pub(super) sums: Vec<TargetSums>,
@@ -91,14 +93,17 @@ impl Unit<'_> {
         let mut asked = 0;
         for (section, (target, receiver)) in self.targets.iter().zip(receivers).enumerate() {
             let points = context.points(self.replicate, Stream::Joins(*target as u64));
-            let next = points.coordinate(self.indices.start, 2);
+            let block = self.indices.start / INDICES * INDICES;
+            let next = points.coordinate(block, 2);
             let (position, n) = (receiver.position, receiver.n);
             let from = match receiver.target {
                 Target::Point { position, normal } => world.ray_origin_of_sensor(position, normal),
                 Target::Cell { .. } => world.ray_origin_of_sensor(position, n),
             };
-            let mut joiner = Joiner { receiver, from, n, next };
-            for index in self.indices.clone() {
+            let mut joiner = Joiner { receiver, from, n, next, is_asking: true };
+            // The whole block, so that parts of it are joined to the same vertices.
+            for index in block..self.indices.end {
+                joiner.is_asking = index >= self.indices.start;
                 if let Target::Cell { grid, cell } = receiver.target {
                     let u = [0, 1].map(|dimension| points.coordinate(index, dimension));
                     joiner.from = world.ray_origin_of_sensor(grid.point_in_cell(cell, u), n);
@@ -147,7 +152,8 @@ impl Unit<'_> {
                     Start {
                         section,
                         receiver: receivers[section],
-                        light_vertices: light.of(subpath as usize),
+                        light,
+                        subpath: subpath as usize,
                         sampler: Sampler::new(points, index),
                     }
                 })

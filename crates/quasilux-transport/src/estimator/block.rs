@@ -15,6 +15,8 @@ pub(crate) enum BlockFrame {
     WitnessPhotons,
     /// Paths of the witness, by index.
     WitnessPaths,
+    /// Units of bidirectional paths.
+    Bidirectional { progress: PathProgress },
 }
 
 /// What a path estimator is for.

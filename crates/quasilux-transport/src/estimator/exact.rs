@@ -13,11 +13,11 @@ const TARGETS: usize = 256;
 /// What a sensor point gets of point-like lights, without sampling, in lx.
 #[derive(Clone, Default)]
 pub(crate) struct Exact {
-    pub(super) direct_lx: f64,
+    pub(crate) direct_lx: f64,
     /// By mirrors and panes alone.
     pub(super) mirrored_lx: f64,
     /// Both by the number of bounces, the last all from there on; empty where terms are not listed.
-    pub(super) terms_lx: Vec<f64>,
+    pub(crate) terms_lx: Vec<f64>,
 }
 
 impl Exact {
@@ -39,7 +39,7 @@ impl Exact {
     }
 
     /// What the results cannot hold.
-    pub(super) fn invalid(&mut self) -> impl Iterator<Item = &mut f64> {
+    pub(crate) fn invalid(&mut self) -> impl Iterator<Item = &mut f64> {
         let Self { direct_lx, mirrored_lx, .. } = self;
         [direct_lx, mirrored_lx].into_iter().filter(|value_lx| !value_lx.is_finite())
     }

@@ -11,6 +11,7 @@ pub(crate) mod pilot;
 pub(crate) mod selection;
 pub(crate) mod witness;
 
+use crate::bidirectional::BidirectionalEstimator;
 use crate::codec::{Reader, StateError, Writer};
 use crate::context::Context;
 use crate::estimator::auto::AutoEstimator;
@@ -97,7 +98,10 @@ pub(crate) fn new_estimator<'a, S: Spectrum>(
     match settings.estimator {
         EstimatorKind::Photon => Box::new(PhotonEstimator::new(context, scene, settings)),
         EstimatorKind::Auto => Box::new(AutoEstimator::new(context, scene, settings, watch)),
-        EstimatorKind::Path | EstimatorKind::Bidirectional | EstimatorKind::BidirectionalMap => {
+        EstimatorKind::Bidirectional => {
+            Box::new(BidirectionalEstimator::new(context, scene, settings))
+        }
+        EstimatorKind::Path | EstimatorKind::Selected | EstimatorKind::BidirectionalMap => {
             Box::new(PathEstimator::new(context, scene, settings, watch))
         }
     }

@@ -187,6 +187,7 @@ fn on_stage<S: Spectrum>(scene: &Scene, settings: &Settings) -> Explanation {
         EstimatorKind::Auto
         | EstimatorKind::Path
         | EstimatorKind::Bidirectional
+        | EstimatorKind::Selected
         | EstimatorKind::BidirectionalMap => {
             let walk = PathSource::new(&context, scene, settings);
             let Look { explanation, means_lx } = look_into(&walk, &ledger, settings);

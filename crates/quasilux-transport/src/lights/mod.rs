@@ -19,7 +19,7 @@ mod selection;
 mod sun_ways;
 mod suns;
 
-pub(crate) use area_luminaires::{AreaLuminaires, PlaceIncidence};
+pub(crate) use area_luminaires::AreaLuminaires;
 pub(crate) use coarse_lights::coarse_tables_bytes;
 pub(crate) use emitting_facets::{EmitterPoint, Emitters};
 pub(crate) use facet_group::EmitterPlace;
@@ -122,7 +122,8 @@ impl<'a> Lights<'a> {
         let (by_lamp_flux, lamps_lm) = (Discrete::new(&fluxes_lm), fluxes_lm.iter().sum());
         let outside_photons = outside.as_ref().and_then(|outside| {
             // Elsewhere paths find what comes straight to sensors.
-            let counts_at_sensors = estimator == EstimatorKind::Photon;
+            let counts_at_sensors =
+                matches!(estimator, EstimatorKind::Photon | EstimatorKind::Bidirectional);
             OutsidePhotons::new(outside, scene, world, Beside { counts_at_sensors, lamps_lm })
         });
         let first_way_in = fluxes_lm.len();

@@ -178,6 +178,12 @@ impl<'a> OutsideLight<'a> {
         self.environment.luminance_cd_m2(direction)
     }
 
+    /// The brightest that a ray finds, but for the sun, in the middle of small cells, in cd/m2.
+    pub(crate) fn brightest_cd_m2(&self) -> f64 {
+        let middles = directions::DirectionTable::middles();
+        middles.map(|direction| self.luminance_cd_m2(direction)).fold(0.0, f64::max)
+    }
+
     /// What it finds of the sun.
     pub(crate) fn sun_cd_m2(&self, direction: DVec3) -> f64 {
         // One less the cosine of an angle is half of the squared chord.

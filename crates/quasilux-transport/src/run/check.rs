@@ -139,8 +139,8 @@ fn check_switches(settings: &Settings) -> Result<(), CheckError> {
         return Err(CheckError::FirstShotWithConnections);
     }
     let has_map = match settings.estimator {
-        EstimatorKind::Path | EstimatorKind::Photon => false,
-        EstimatorKind::Auto | EstimatorKind::Bidirectional => settings.connections() != Some(true),
+        EstimatorKind::Path | EstimatorKind::Photon | EstimatorKind::Bidirectional => false,
+        EstimatorKind::Auto | EstimatorKind::Selected => settings.connections() != Some(true),
         EstimatorKind::BidirectionalMap => true,
     };
     if settings.map_dimensions.is_some() && !has_map {
@@ -150,13 +150,13 @@ fn check_switches(settings: &Settings) -> Result<(), CheckError> {
         });
     }
     let is_steerable = match settings.estimator {
-        EstimatorKind::Path => false,
-        EstimatorKind::Auto | EstimatorKind::Bidirectional => settings.connections() != Some(false),
+        EstimatorKind::Path | EstimatorKind::Bidirectional => false,
+        EstimatorKind::Auto | EstimatorKind::Selected => settings.connections() != Some(false),
         EstimatorKind::Photon | EstimatorKind::BidirectionalMap => true,
     };
     if settings.importance == Switch::On && !is_steerable {
         let why = match settings.connections {
-            _ if settings.estimator == EstimatorKind::Path => "",
+            _ if !settings.estimator.is_selected_by_pilots() => "",
             Switch::Off => " and connections = \"off\"",
             _ => " on a map that first_shot or map_dimensions ask for",
         };
@@ -229,7 +229,10 @@ fn caveats_of_values(scene: &Scene, settings: &Settings) -> Vec<String> {
                 )
             }));
         }
-        EstimatorKind::Auto | EstimatorKind::Path | EstimatorKind::Bidirectional => {}
+        EstimatorKind::Auto
+        | EstimatorKind::Path
+        | EstimatorKind::Bidirectional
+        | EstimatorKind::Selected => {}
     }
     caveats
 }

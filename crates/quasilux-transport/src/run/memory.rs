@@ -92,7 +92,8 @@ impl MemoryNeed {
             EstimatorKind::Auto
             | EstimatorKind::Photon
             | EstimatorKind::Path
-            | EstimatorKind::Bidirectional => return need,
+            | EstimatorKind::Bidirectional
+            | EstimatorKind::Selected => return need,
         };
         let channels = if is_grey(scene) { f64::CHANNELS } else { Rgb::CHANNELS } as u64;
         let moments = if settings.map_reconstruction == Reconstruction::Linear { 3 } else { 1 };

@@ -169,6 +169,11 @@ impl<S: Spectrum> World<S> {
         self.bsdf(at).up().map_or_else(|| Frame::around(at.n), |up| Frame::upright(at.n, up))
     }
 
+    /// How all materials scatter, in the order of their numbers.
+    pub(crate) fn bsdfs(&self) -> &[Bsdf<S>] {
+        &self.bsdfs
+    }
+
     /// How a facet scatters.
     #[inline]
     pub(crate) fn bsdf_of(&self, facet: &Facet) -> &Bsdf<S> {

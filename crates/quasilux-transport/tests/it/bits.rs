@@ -47,8 +47,8 @@ fn digests(simd: SimdLevel) -> [String; 7] {
         (EstimatorKind::Path, Switch::Auto, sobol),
         (EstimatorKind::Path, Switch::Auto, random),
         (EstimatorKind::Photon, Switch::Auto, halton),
-        (EstimatorKind::Bidirectional, Switch::On, sobol),
-        (EstimatorKind::Bidirectional, Switch::Off, sobol),
+        (EstimatorKind::Selected, Switch::On, sobol),
+        (EstimatorKind::Selected, Switch::Off, sobol),
         (EstimatorKind::BidirectionalMap, Switch::Auto, halton),
         (EstimatorKind::Auto, Switch::Auto, sobol),
     ]

@@ -14,7 +14,7 @@ const LISTED: u32 = 3;
 
 fn settings(estimator: EstimatorKind) -> Settings {
     let connections = match estimator {
-        EstimatorKind::Bidirectional => Switch::On,
+        EstimatorKind::Selected => Switch::On,
         _ => Switch::Auto,
     };
     Settings { estimator, connections, rel_tol: 0.0, ..Settings::default() }
@@ -62,7 +62,7 @@ fn rooms() -> [(&'static str, Scene); 2] {
 fn photons_and_paths_share_the_light_of_every_term() {
     for (name, scene) in rooms() {
         let [alone, light_vertices] =
-            [EstimatorKind::Path, EstimatorKind::Bidirectional].map(|estimator| {
+            [EstimatorKind::Path, EstimatorKind::Selected].map(|estimator| {
                 let max_samples =
                     Some(if estimator == EstimatorKind::Path { 1 << 12 } else { 1 << 10 });
                 run(&scene, &Settings { list_terms: LISTED, max_samples, ..settings(estimator) })
@@ -88,7 +88,7 @@ fn photons_and_paths_share_the_light_of_every_term() {
 #[test]
 fn threads_change_no_bit() {
     let [_, (_, scene)] = rooms();
-    let settings = Settings { max_samples: Some(64), ..settings(EstimatorKind::Bidirectional) };
+    let settings = Settings { max_samples: Some(64), ..settings(EstimatorKind::Selected) };
     let [one, three] = [1, 3].map(|threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
         pool.expect("threads start").install(|| run(&scene, &settings))
@@ -107,7 +107,7 @@ fn bounces_are_cut_where_wanted() {
         estimates.interval_of(0, |lx| lx.iter().sum())
     };
     let (alone, light_vertices) =
-        (of_one(EstimatorKind::Path), of_one(EstimatorKind::Bidirectional));
+        (of_one(EstimatorKind::Path), of_one(EstimatorKind::Selected));
     let allowed = 1.5 * (alone.half_width.unwrap() + light_vertices.half_width.unwrap());
     assert!(allowed < 0.05 * alone.value, "{alone:?}, {light_vertices:?}");
     assert!((alone.value - light_vertices.value).abs() < allowed, "{alone:?}, {light_vertices:?}");

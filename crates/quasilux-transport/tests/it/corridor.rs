@@ -105,7 +105,7 @@ fn guided_photons_know_the_dark_end_better() {
 #[test]
 fn connected_photons_know_all_of_four_orders_of_magnitude() {
     let settings = Settings {
-        estimator: EstimatorKind::Bidirectional,
+        estimator: EstimatorKind::Selected,
         max_samples: Some(1 << 9),
         ..settings(Switch::Auto)
     };
@@ -173,7 +173,7 @@ fn a_sheet_in_the_dark_is_left_alone() {
 fn no_seed_loses_the_way() {
     for seed in [0, 5, 10, 15] {
         let settings = Settings {
-            estimator: EstimatorKind::Bidirectional,
+            estimator: EstimatorKind::Selected,
             seed,
             max_samples: Some(1 << 6),
             ..settings(Switch::Auto)

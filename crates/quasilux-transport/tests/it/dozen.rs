@@ -108,8 +108,8 @@ fn assert_agree(scene: &Scene) {
     let unbiased = [
         ("paths", EstimatorKind::Path, Switch::Off),
         ("photons", EstimatorKind::Photon, Switch::Off),
-        ("corrected map", EstimatorKind::Bidirectional, Switch::Off),
-        ("connected photons", EstimatorKind::Bidirectional, Switch::On),
+        ("corrected map", EstimatorKind::Selected, Switch::Off),
+        ("connected photons", EstimatorKind::Selected, Switch::On),
     ];
     let found = unbiased
         .map(|(name, estimator, connections)| (name, estimate(scene, estimator, connections)));

@@ -5,6 +5,6 @@ use quasilux_transport::{EstimatorKind, Switch};
 /// Alone, beside connected photons, and ending on a map that is corrected.
 pub(crate) const PATH_ESTIMATORS: [(EstimatorKind, Switch); 3] = [
     (EstimatorKind::Path, Switch::Auto),
-    (EstimatorKind::Bidirectional, Switch::On),
-    (EstimatorKind::Bidirectional, Switch::Off),
+    (EstimatorKind::Selected, Switch::On),
+    (EstimatorKind::Selected, Switch::Off),
 ];

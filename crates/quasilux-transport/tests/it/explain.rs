@@ -87,7 +87,7 @@ fn the_parts_tell_the_error_of_a_run() {
     let places = places.map(|(x, y, z)| (DVec3::new(x, y, z), DVec3::Z));
     scene.sensors = vec![points("desk", &places)];
     let settings = Settings {
-        estimator: EstimatorKind::Bidirectional,
+        estimator: EstimatorKind::Selected,
         connections: Switch::On,
         sequence: Sequence::Independent,
         replicates: REPLICATES,
@@ -148,7 +148,7 @@ fn coordinates_are_named_in_their_order() {
     );
     let [leaves, across] = [Purpose::Emission, Purpose::EmissionOfArea];
     assert_eq!(first(EstimatorKind::Photon, 4), [leaves, across, on1, on2]);
-    let estimator = EstimatorKind::Bidirectional;
+    let estimator = EstimatorKind::Selected;
     let [on_map, beside] = [Switch::Off, Switch::On].map(|connections| {
         explain(&scene, &Settings { estimator, connections, ..Settings::default() })
     });
@@ -181,14 +181,14 @@ fn coordinates_are_named_in_their_order() {
 #[test]
 fn threads_change_nothing() {
     let scene = coloured_room_with_mirror();
-    for estimator in [EstimatorKind::Path, EstimatorKind::Photon, EstimatorKind::Bidirectional] {
+    for estimator in [EstimatorKind::Path, EstimatorKind::Photon, EstimatorKind::Selected] {
         let settings = Settings { estimator, connections: Switch::On, ..Settings::default() };
         let [one, three] = [1, 3].map(|threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
             pool.expect("threads start").install(|| explain(&scene, &settings))
         });
         assert_eq!(one, three);
-        assert_eq!(one.beside.len(), if estimator == EstimatorKind::Bidirectional { 2 } else { 0 });
+        assert_eq!(one.beside.len(), if estimator == EstimatorKind::Selected { 2 } else { 0 });
         assert!(one.gain.is_some_and(|gain| gain.factor > 1.0), "{:?}", one.gain);
     }
 }

@@ -92,7 +92,7 @@ fn first_shot_goes_with_steering_and_with_corrected_maps() {
         let off = run(&scene, map(Switch::Off, 2));
         let guided = Settings { importance: Switch::On, ..map(Switch::On, 1) };
         let corrected = Settings {
-            estimator: EstimatorKind::Bidirectional,
+            estimator: EstimatorKind::Selected,
             max_samples: Some(1 << 10),
             ..map(Switch::On, 3)
         };
@@ -112,7 +112,7 @@ fn first_shot_goes_with_steering_and_with_corrected_maps() {
 #[test]
 fn the_balance_of_the_flux_is_whole() {
     for (name, scene) in rooms() {
-        for estimator in [EstimatorKind::Bidirectional, EstimatorKind::BidirectionalMap] {
+        for estimator in [EstimatorKind::Selected, EstimatorKind::BidirectionalMap] {
             let settings = Settings {
                 estimator,
                 map_adaptive: false,
@@ -159,7 +159,7 @@ fn estimators_without_maps_refuse_it() {
         assert_eq!(check(&scene, &settings), Err(CheckError::FirstShotWithoutMap { estimator }));
     }
     let light_vertices = Settings {
-        estimator: EstimatorKind::Bidirectional,
+        estimator: EstimatorKind::Selected,
         connections: Switch::On,
         ..map(Switch::On, 1)
     };
@@ -175,18 +175,18 @@ fn what_is_switched_on_is_not_passed_over() {
     let with = |estimator, connections| Settings { estimator, connections, ..guided.clone() };
     for settings in [
         with(EstimatorKind::Path, Switch::Auto),
-        with(EstimatorKind::Bidirectional, Switch::Off),
-        Settings { first_shot: Switch::On, ..with(EstimatorKind::Bidirectional, Switch::Auto) },
+        with(EstimatorKind::Selected, Switch::Off),
+        Settings { first_shot: Switch::On, ..with(EstimatorKind::Selected, Switch::Auto) },
     ] {
         let refused = check(&scene, &settings);
         assert!(matches!(refused, Err(CheckError::NothingToGuide { .. })), "{refused:?}");
     }
     for connections in [Switch::Auto, Switch::On] {
-        assert_eq!(check(&scene, &with(EstimatorKind::Bidirectional, connections)), Ok(()));
+        assert_eq!(check(&scene, &with(EstimatorKind::Selected, connections)), Ok(()));
     }
     // On the corrected map photons leave lit places, or not: other numbers.
     let few = |first_shot| {
-        let estimator = EstimatorKind::Bidirectional;
+        let estimator = EstimatorKind::Selected;
         let max_samples = Some(64);
         run(&scene, Settings { estimator, max_samples, ..map(first_shot, 1) }).sensors
     };

@@ -66,7 +66,7 @@ fn a_deep_blue_room_has_the_light_of_its_channels() {
     });
     let channels = LUMINANCE_WEIGHTS.iter().zip(reflectance.0);
     let wanted = 4.0 * PI * 100.0 / 6.0 * channels.map(|(w, r)| w / (1.0 - r)).sum::<f64>();
-    for estimator in [EstimatorKind::Photon, EstimatorKind::Path, EstimatorKind::Bidirectional] {
+    for estimator in [EstimatorKind::Photon, EstimatorKind::Path, EstimatorKind::Selected] {
         let settings = Settings { estimator, rel_tol: 0.005, ..Settings::default() };
         let interval = simulate(&scene, &settings, &mut ()).point_intervals(0)[0];
         let allowed = 1.5 * interval.half_width.unwrap();

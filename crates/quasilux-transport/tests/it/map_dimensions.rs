@@ -42,7 +42,7 @@ fn the_paper_s_map_goes_without_what_is_left_out() {
 fn the_corrected_map_finds_it() {
     let path = run(EstimatorKind::Path, None).point_intervals(0);
     for most in [1, 8] {
-        let corrected = run(EstimatorKind::Bidirectional, Some(most));
+        let corrected = run(EstimatorKind::Selected, Some(most));
         assert!(!corrected.biased);
         for (a, b) in corrected.point_intervals(0).iter().zip(&path) {
             let joint = libm::hypot(a.half_width.unwrap(), b.half_width.unwrap());
@@ -62,11 +62,11 @@ fn it_is_refused_where_there_is_no_map() {
     for (estimator, connections) in [
         (EstimatorKind::Path, Switch::Auto),
         (EstimatorKind::Photon, Switch::Auto),
-        (EstimatorKind::Bidirectional, Switch::On),
+        (EstimatorKind::Selected, Switch::On),
     ] {
         let refused = of(estimator, connections);
         assert!(matches!(refused, Err(CheckError::NoMapToLeaveOutOf { .. })), "{refused:?}");
     }
-    assert_eq!(of(EstimatorKind::Bidirectional, Switch::Auto), Ok(()));
+    assert_eq!(of(EstimatorKind::Selected, Switch::Auto), Ok(()));
     assert_eq!(of(EstimatorKind::BidirectionalMap, Switch::Auto), Ok(()));
 }

@@ -149,8 +149,8 @@ fn halls_of_perfect_mirrors_end_with_a_warning() {
     for scene in [hall.clone(), with_glass(hall)] {
         for (estimator, connections) in [
             (EstimatorKind::Path, Switch::Auto),
-            (EstimatorKind::Bidirectional, Switch::On),
-            (EstimatorKind::Bidirectional, Switch::Off),
+            (EstimatorKind::Selected, Switch::On),
+            (EstimatorKind::Selected, Switch::Off),
             (EstimatorKind::BidirectionalMap, Switch::Auto),
         ] {
             assert_warns_of_trapped_light(&scene, estimator, connections);

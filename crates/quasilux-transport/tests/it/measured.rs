@@ -71,7 +71,7 @@ pub(crate) fn measured(
 }
 
 pub(crate) fn estimates(scene: &Scene, estimator: EstimatorKind, samples: u64) -> Vec<Mean> {
-    let is_connected = estimator == EstimatorKind::Bidirectional;
+    let is_connected = estimator == EstimatorKind::Selected;
     let settings = Settings {
         estimator,
         connections: if is_connected { Switch::On } else { Switch::Auto },
@@ -159,7 +159,7 @@ fn a_table_of_lambert_is_a_translucent_sheet() {
     for (estimator, samples) in [
         (EstimatorKind::Path, 1 << 12),
         (EstimatorKind::Photon, 1 << 15),
-        (EstimatorKind::Bidirectional, 1 << 12),
+        (EstimatorKind::Selected, 1 << 12),
     ] {
         let found = estimates(&scene, estimator, samples);
         let pairs: Vec<(Mean, Mean)> = expected.iter().copied().zip(found).collect();
@@ -237,7 +237,7 @@ pub(crate) fn assert_estimators_agree(what: &str, scene: &Scene, paths: u64, wid
     let paths = if deep() { paths.max(1 << 12) } else { paths };
     let alone = estimates(scene, EstimatorKind::Path, paths);
     let photons = estimates(scene, EstimatorKind::Photon, 8 * paths);
-    let both = estimates(scene, EstimatorKind::Bidirectional, paths / 4);
+    let both = estimates(scene, EstimatorKind::Selected, paths / 4);
     let pairs: Vec<(Mean, Mean)> =
         alone.iter().copied().zip(photons).chain(alone.iter().copied().zip(both)).collect();
     assert_alike(what, &pairs, widest);

@@ -153,8 +153,8 @@ fn photons_and_paths_agree_in_rooms_at_random() {
     let mut numbers = Numbers(29);
     let ways = [
         (EstimatorKind::Photon, Switch::Auto, 1 << 12),
-        (EstimatorKind::Bidirectional, Switch::Off, 1 << 7),
-        (EstimatorKind::Bidirectional, Switch::On, 1 << 6),
+        (EstimatorKind::Selected, Switch::Off, 1 << 7),
+        (EstimatorKind::Selected, Switch::On, 1 << 6),
     ];
     let mut all: [Vec<f64>; 3] = Default::default();
     for number in 0..8 {
@@ -213,8 +213,8 @@ fn threads_change_no_bit_beside_lamps() {
     let paths = find(EstimatorKind::Path, Switch::Auto, 1 << 8, 2);
     for (estimator, connections, samples) in [
         (EstimatorKind::Photon, Switch::Auto, 1 << 12),
-        (EstimatorKind::Bidirectional, Switch::On, 1 << 7),
-        (EstimatorKind::Bidirectional, Switch::Off, 1 << 7),
+        (EstimatorKind::Selected, Switch::On, 1 << 7),
+        (EstimatorKind::Selected, Switch::Off, 1 << 7),
         (EstimatorKind::BidirectionalMap, Switch::Auto, 1 << 4),
         (EstimatorKind::Auto, Switch::Auto, 1 << 7),
     ] {

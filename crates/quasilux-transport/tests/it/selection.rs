@@ -10,7 +10,7 @@ use quasilux_transport::{
 
 fn run(scene: &Scene, rel_tol: f64, connections: Switch) -> Estimates {
     let settings = Settings {
-        estimator: EstimatorKind::Bidirectional,
+        estimator: EstimatorKind::Selected,
         rel_tol,
         connections,
         max_samples: Some(128),
@@ -75,7 +75,7 @@ fn a_dark_place_among_many_is_given_up() {
     places[51].0.x = 5.0;
     scene.sensors.push(points("places", &places));
     let settings = Settings {
-        estimator: EstimatorKind::Bidirectional,
+        estimator: EstimatorKind::Selected,
         connections: Switch::Off,
         rel_tol: 0.05,
         ..Settings::default()
@@ -94,7 +94,7 @@ fn averages_ask_for_less() {
     scene.sensors = vec![wall_grid([12, 12])];
     let run = |tolerance_on| {
         let settings = Settings {
-            estimator: EstimatorKind::Bidirectional,
+            estimator: EstimatorKind::Selected,
             rel_tol: 0.003,
             tolerance_on,
             max_samples: Some(16),

@@ -108,8 +108,8 @@ fn runs() -> Vec<(&'static str, Scene, Settings)> {
     let guided = Settings { importance: Switch::On, ..photon.clone() };
     let listing = |estimator| Settings { list_terms: 2, ..settings(estimator) };
     let light_vertices =
-        Settings { connections: Switch::On, ..listing(EstimatorKind::Bidirectional) };
-    let mapped = Settings { connections: Switch::Off, ..settings(EstimatorKind::Bidirectional) };
+        Settings { connections: Switch::On, ..listing(EstimatorKind::Selected) };
+    let mapped = Settings { connections: Switch::Off, ..settings(EstimatorKind::Selected) };
     let grown = Settings {
         map_adaptive: false,
         map_element_m: Some(0.5),
@@ -188,7 +188,7 @@ fn points_that_are_done_stay_done() {
         image_depth: Some(0),
         ..Settings::default()
     };
-    let own = settings(EstimatorKind::Bidirectional);
+    let own = settings(EstimatorKind::Selected);
     let light_vertices = Settings { connections: Switch::On, rel_tol: 0.02, ..own };
     let of_map = settings(EstimatorKind::BidirectionalMap);
     for (name, scene, settings) in [

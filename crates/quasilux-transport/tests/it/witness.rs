@@ -115,7 +115,7 @@ fn plain_rooms_are_not_contradicted() {
             }));
         }
         let estimator =
-            if seed % 2 == 0 { EstimatorKind::Path } else { EstimatorKind::Bidirectional };
+            if seed % 2 == 0 { EstimatorKind::Path } else { EstimatorKind::Selected };
         let found = run(&scene, estimator, seed);
         assert_eq!(contradicted(&found), 0, "seed {seed}, {estimator:?}");
     }

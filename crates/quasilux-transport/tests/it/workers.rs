@@ -169,7 +169,7 @@ fn workers_change_no_bit() {
         ..Settings::default()
     };
     let connected =
-        Settings { connections: Switch::On, ..settings(EstimatorKind::Bidirectional, 1 << 12) };
+        Settings { connections: Switch::On, ..settings(EstimatorKind::Selected, 1 << 12) };
     let mapped = Settings {
         map_element_m: Some(0.5),
         map_photons: 3,

@@ -136,7 +136,7 @@ impl Setup {
     /// that photons keep equal flux and elements are of one size and hold one number.
     pub(super) fn settings(self, samples: u64, replicates: u32, seed: u64) -> Settings {
         let own = Settings {
-            estimator: EstimatorKind::Bidirectional,
+            estimator: EstimatorKind::Selected,
             sequence: self.points.sequence(samples),
             randomization: self.points.randomization(),
             rel_tol: 0.0,

@@ -102,7 +102,7 @@ mod tests {
         scene.lights.push(point_light(DVec3::new(2.0, 1.5, 2.0), 100.0));
         scene.sensors.push(points("desk", &[(DVec3::new(1.0, 1.2, 0.8), DVec3::Z)]));
         scene.sensors.push(level_grid(DVec3::new(0.5, 0.5, 0.1), [3.0, 2.0], [3, 2]));
-        let (connections, estimator) = (Switch::On, EstimatorKind::Bidirectional);
+        let (connections, estimator) = (Switch::On, EstimatorKind::Selected);
         let settings = Settings { connections, estimator, ..Settings::default() };
         let context = Context::<f64>::new(&scene, &settings);
         let all = targets(&scene);

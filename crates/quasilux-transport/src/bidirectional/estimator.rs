@@ -1,0 +1,302 @@
+//! The estimator of all sensors by bidirectional paths: sums over units of work, and the estimates
+//! that follow from them.
+
+use super::caps::Caps;
+use super::engine::Engine;
+use super::plan::Plan;
+use super::sources::Sources;
+use super::sums::TargetSums;
+use super::unit::{INDICES, UnitSums};
+use crate::codec::{Reader, StateError, Sums, Writer, add_count, digest};
+use crate::context::Context;
+use crate::cutoff;
+use crate::estimator::Estimator;
+use crate::estimator::block::BlockFrame;
+use crate::estimator::exact::{Exact, exact};
+use crate::path::sections::WorkCounts;
+use crate::settings::Settings;
+use crate::spectrum::Spectrum;
+use crate::stats::decisions::Decisions;
+use crate::stats::estimates::{
+    Dimensions, Estimates, SensorEstimates, TermEstimates,
+};
+use crate::stats::tally::{Quantum, Sum};
+use crate::stats::targets::{by_sensor, targets};
+use crate::stats::unseen::UnseenLight;
+use crate::stats::watch::Watch;
+use quasilux_scene::Scene;
+use serde::{Deserialize, Serialize};
+use std::ops::Range;
+
+/// Bidirectional paths from all sensor points, in all replicates.
+pub(crate) struct BidirectionalEstimator<'a, S> {
+    pub(super) engine: Engine<'a, 'a, S>,
+    scene: &'a Scene,
+    caps: Caps,
+    /// Of each target that is a point.
+    exact: Vec<Exact>,
+    pub(super) replicates: u32,
+    pub(super) quantum: Quantum,
+    /// Of target t in replicate r at `t * replicates + r`.
+    pub(super) sums: Vec<TargetSums>,
+    /// The first index.
+    pub(super) first: u64,
+    /// Indices of the last checkpoint.
+    pub(super) samples: u64,
+    /// Units that are over since then.
+    pub(super) done: u64,
+    /// Targets that get more paths, in order.
+    pub(super) growing: Vec<usize>,
+    /// Of each target that gets no more, the index that it ends before.
+    pub(super) ends: Vec<Option<u64>>,
+    pub(super) costs: Costs,
+    /// Rays before the first sample.
+    prepared_rays: u64,
+    /// Targets whose direct light is not finite.
+    invalid_points: u64,
+}
+
+/// What was traced.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub(super) struct Costs {
+    pub(super) paths: WorkCounts,
+    pub(super) photons: u64,
+}
+
+impl Sums for Costs {
+    fn checked_add(&mut self, other: &Self) -> Option<()> {
+        self.paths.checked_add(&other.paths)?;
+        add_count(&mut self.photons, other.photons)
+    }
+}
+
+impl<'a, S: Spectrum> BidirectionalEstimator<'a, S> {
+    pub(crate) fn new(
+        context: &'a Context<'a, S>,
+        scene: &'a Scene,
+        settings: &Settings,
+    ) -> Self {
+        let targets = targets(scene);
+        let mut prepared_rays = 0;
+        let mut exact = exact(context, &targets, &mut prepared_rays);
+        let mut invalid_points = 0;
+        for value_lx in exact.iter_mut().flat_map(Exact::invalid) {
+            // A light right at a sensor point has no illuminance to speak of.
+            *value_lx = 0.0;
+            invalid_points += 1;
+        }
+        let plan = Plan::new(context, &targets);
+        let sources = Sources::new(&context.lights);
+        let replicates = settings.effective_replicates();
+        let empty = TargetSums::new(context.listed_terms);
+        let engine = Engine { context, sources, plan };
+        Self {
+            caps: Caps::new(&engine, scene),
+            engine,
+            scene,
+            exact,
+            replicates,
+            quantum: Quantum::for_reference(context.lights.reference_lx(&context.world)),
+            sums: vec![empty; targets.len() * replicates as usize],
+            first: 0,
+            samples: 0,
+            done: 0,
+            growing: (0..targets.len()).collect(),
+            ends: vec![None; targets.len()],
+            costs: Costs::default(),
+            prepared_rays,
+            invalid_points,
+        }
+    }
+
+    /// Leaves targets that have an end at that.
+    pub(super) fn keep_to_ends(&mut self) {
+        self.growing = (0..self.ends.len()).filter(|it| self.ends[*it].is_none()).collect();
+    }
+
+    /// Indices that a target has.
+    fn samples_of(&self, target: usize) -> u64 {
+        self.ends[target].unwrap_or(self.samples)
+    }
+
+    /// Adds the sums of a unit of these targets.
+    pub(super) fn add(&mut self, replicate: u32, targets: &[usize], found: &UnitSums) {
+        for (target, sums) in targets.iter().zip(&found.sums) {
+            self.sums[target * self.replicates as usize + replicate as usize] += sums;
+        }
+        self.costs.paths += found.work.clone();
+        self.costs.photons += found.photons;
+    }
+
+    fn mean(&self, target: usize, sum: Sum) -> f64 {
+        self.quantum.value(sum) / self.samples_of(target).max(1) as f64
+    }
+
+    /// The mean over the replicates of what `sum` takes of each target.
+    fn mean_of(&self, sum: impl Fn(&TargetSums) -> Sum) -> Vec<f64> {
+        let own = self.sums.chunks_exact(self.replicates as usize).enumerate();
+        own.map(|(target, own)| {
+            let all_lx: f64 = own.iter().map(|sums| self.mean(target, sum(sums))).sum();
+            all_lx / own.len() as f64
+        })
+        .collect()
+    }
+
+    /// One row a replicate: what `sum` takes of each target, beside what was computed.
+    fn rows(
+        &self,
+        exact_lx: impl Fn(&Exact) -> f64,
+        sum: impl Fn(&TargetSums) -> [Sum; 2],
+    ) -> Vec<Vec<f64>> {
+        let replicates = self.replicates as usize;
+        let row = |replicate: usize| {
+            let own = self.sums.iter().skip(replicate).step_by(replicates).zip(&self.exact);
+            let value_lx = |(target, (sums, exact)): (usize, (&TargetSums, &Exact))| {
+                let [a, b] = sum(sums).map(|sum| self.mean(target, sum));
+                exact_lx(exact) + a + b
+            };
+            own.enumerate().map(value_lx).collect()
+        };
+        (0..replicates).map(row).collect()
+    }
+
+    /// The terms of the Neumann series that are listed, and the rest.
+    fn terms(&self) -> Vec<TermEstimates> {
+        let listed = self.context().listed_terms as usize;
+        if listed == 0 {
+            return Vec::new();
+        }
+        let term = |term: usize| TermEstimates {
+            replicate_lx: self.rows(
+                |exact| Some(exact.terms_lx[term]).filter(|lx| lx.is_finite()).unwrap_or(0.0),
+                |sums| [sums.terms[term], Sum::default()],
+            ),
+            resolved: vec![true; self.ends.len()],
+        };
+        (0..=listed).map(term).collect()
+    }
+
+    fn context(&self) -> &'a Context<'a, S> {
+        self.engine.context
+    }
+}
+
+impl<S: Spectrum> Estimator for BidirectionalEstimator<'_, S> {
+    fn advance(&mut self, samples: u64, watch: &mut Watch<'_>) -> bool {
+        self.trace_up_to(samples, watch)
+    }
+
+    fn estimates(&self) -> Estimates {
+        let targets = self.ends.len();
+        let trials = |target| self.samples_of(target) as f64 * f64::from(self.replicates);
+        let unseen_lx = self.caps.unseen_lx(0..targets, trials);
+        let direct_lx = self.mean_of(|sums| sums.direct);
+        let exact_lx = self.exact.iter().map(|exact| exact.direct_lx);
+        let all = SensorEstimates {
+            replicate_lx: self.rows(Exact::sum_lx, |sums| [sums.direct, sums.indirect]),
+            direct_lx: direct_lx.into_iter().zip(exact_lx).map(|(a, b)| a + b).collect(),
+            resolved: vec![true; targets],
+            missed: vec![false; targets],
+            contradicted: vec![false; targets],
+            samples: (0..targets).map(|target| self.samples_of(target)).collect(),
+            terms: self.terms(),
+            unseen: Some(UnseenLight {
+                average_lx: 0.0,
+                point_lx: unseen_lx,
+                merged_lx: self.mean_of(|sums| sums.merged),
+                disc_radius_m: self.engine.plan.receivers.iter().map(|it| it.radius_m).collect(),
+            }),
+        };
+        let mut sensors = by_sensor(self.scene, &all);
+        let mut first = 0;
+        for sensor in &mut sensors {
+            let Some(unseen) = &mut sensor.unseen else { continue };
+            let own = first..first + unseen.point_lx.len();
+            first = own.end;
+            let trials = own.map(trials).sum();
+            unseen.average_lx = self.caps.unseen_of_average_lx(&unseen.point_lx, trials);
+        }
+        let Costs { paths, photons } = &self.costs;
+        Estimates {
+            sensors,
+            samples: self.samples,
+            rays: paths.rays + self.prepared_rays,
+            biased: paths.endless > 0,
+            warnings: cutoff::warning(paths.endless, "paths", "values").into_iter().collect(),
+            dimensions: Dimensions {
+                photons: *photons,
+                path: paths.dimensions.clone(),
+                ..Dimensions::default()
+            },
+            invalid_contributions: self.invalid_points
+                + self.sums.iter().map(TargetSums::invalid).sum::<u64>(),
+            ..Estimates::default()
+        }
+    }
+
+    fn decisions(&self) -> Decisions {
+        let Plan { subpaths, joined, receivers } = &self.engine.plan;
+        Decisions {
+            connected_photons: Some(*subpaths),
+            digest: digest(|out| {
+                out.value(&self.quantum);
+                out.value(&self.exact.iter().map(Exact::sum_lx).collect::<Vec<f64>>());
+                out.value(&[*subpaths, *joined]);
+                let of_receivers = receivers.iter().map(|it| [it.area_m2, it.sure_m2]);
+                out.value(&of_receivers.collect::<Vec<[f64; 2]>>());
+            }),
+            ..Decisions::default()
+        }
+    }
+
+    fn put(&self, out: &mut Writer) {
+        self.put_all(out);
+    }
+
+    fn merge_from(&mut self, coming: u64, from: &mut Reader<'_>) -> Result<(), StateError> {
+        self.take_in_all(coming, from)
+    }
+
+    fn trace_part(&mut self, part: Range<u64>, _samples: u64, watch: &mut Watch<'_>) -> bool {
+        (self.first, self.samples) = (part.start, part.start);
+        self.trace_up_to(part.end, watch)
+    }
+
+    fn put_shared(&self, _out: &mut Writer) {}
+
+    fn merge_shared(&mut self, _from: &mut Reader<'_>) -> Result<(), StateError> {
+        Ok(())
+    }
+
+    fn put_part(&self, out: &mut Writer) {
+        self.put_own(out);
+    }
+
+    fn merge_part(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
+        self.take_in_own(from)
+    }
+
+    fn trace_block(
+        &mut self,
+        frame: &BlockFrame,
+        block: Range<u64>,
+    ) -> Result<Vec<u8>, StateError> {
+        self.trace_units_of(frame, block)
+    }
+
+    fn complete_at(&mut self, samples: u64) {
+        self.samples = samples;
+    }
+
+    fn freeze_converged(&mut self, done: &[bool]) -> bool {
+        for (end, _) in self.ends.iter_mut().zip(done).filter(|(_, done)| **done) {
+            end.get_or_insert(self.samples);
+        }
+        self.keep_to_ends();
+        true
+    }
+
+    fn first_checkpoint(&self) -> u64 {
+        INDICES
+    }
+}

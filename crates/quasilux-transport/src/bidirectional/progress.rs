@@ -1,0 +1,202 @@
+//! Progress of bidirectional paths from one checkpoint to the next, in units of work put in one
+//! row; and their state, for checkpoints, parts of a run and other processes.
+
+use super::estimator::BidirectionalEstimator;
+use super::unit::{INDICES, Unit, UnitSums};
+use crate::codec::{Reader, StateError, Stored, Writer};
+use crate::estimator::block::{BlockFrame, PathProgress};
+use crate::spectrum::Spectrum;
+use crate::stats::watch::{BlockCounts, Watch};
+use crate::stats::workers::BlockSize;
+use rayon::prelude::*;
+use std::ops::Range;
+
+/// Targets of a unit at most.
+const TARGETS: usize = 4096;
+/// Paths between two words to the observer, about, and units at least.
+const ROUND: u64 = 1 << 17;
+const UNITS: u64 = 32;
+
+/// All units between two checkpoints: blocks of indices, one after the other, each in all
+/// replicates, each for all growing targets.
+#[derive(Clone, Debug)]
+struct Row {
+    indices: Range<u64>,
+    replicates: u64,
+    chunks: u64,
+}
+
+impl Row {
+    fn len(&self) -> u64 {
+        let blocks = self.indices.end.div_ceil(INDICES) - self.indices.start / INDICES;
+        if self.indices.is_empty() { 0 } else { blocks * self.replicates * self.chunks }
+    }
+
+    fn unit<'t>(&self, number: u64, growing: &'t [usize]) -> Unit<'t> {
+        let chunk = (number % self.chunks) as usize;
+        let number = number / self.chunks;
+        let first = (self.indices.start / INDICES + number / self.replicates) * INDICES;
+        let indices =
+            first.max(self.indices.start)..(first + INDICES).min(self.indices.end);
+        let replicate = (number % self.replicates) as u32;
+        let targets = &growing[chunk * TARGETS..((chunk + 1) * TARGETS).min(growing.len())];
+        Unit { replicate, indices, targets }
+    }
+}
+
+impl<S: Spectrum> BidirectionalEstimator<'_, S> {
+    fn row(&self, indices: Range<u64>) -> Row {
+        let chunks = self.growing.len().div_ceil(TARGETS) as u64;
+        Row { indices, replicates: self.replicates.into(), chunks }
+    }
+
+    /// Paths of a unit, at most.
+    fn paths_of_a_unit(&self) -> u64 {
+        self.growing.len().min(TARGETS).max(1) as u64 * INDICES
+    }
+
+    /// Traces all units with the indices up to `samples`; `false` when the observer stopped it.
+    pub(super) fn trace_up_to(&mut self, samples: u64, watch: &mut Watch<'_>) -> bool {
+        let row = self.row(self.samples..samples);
+        watch.foresee(row.len() * self.paths_of_a_unit());
+        if let Some(is_done) = self.trace_by_workers(&row, samples, watch) {
+            (self.samples, self.done) = (samples, 0);
+            return is_done;
+        }
+        let most = (ROUND / self.paths_of_a_unit()).max(UNITS);
+        for round in watch.rounds(self.done..row.len(), most) {
+            let before = (self.costs.photons, self.costs.paths.paths, self.costs.paths.rays);
+            let found: Vec<UnitSums> = round
+                .clone()
+                .into_par_iter()
+                .map(|number| row.unit(number, &self.growing).trace(&self.engine, self.quantum))
+                .collect();
+            self.add_units(&row, round.clone(), &found);
+            self.done = round.end;
+            let [photons, paths, rays] = [
+                self.costs.photons - before.0,
+                self.costs.paths.paths - before.1,
+                self.costs.paths.rays - before.2,
+            ];
+            let goes_on = watch.tick(photons, paths, rays);
+            if !goes_on || !watch.keep(|out| self.put_all(out)) {
+                return false;
+            }
+        }
+        (self.samples, self.done) = (samples, 0);
+        true
+    }
+
+    fn add_units(&mut self, row: &Row, numbers: Range<u64>, found: &[UnitSums]) {
+        let growing = std::mem::take(&mut self.growing);
+        for (number, found) in numbers.zip(found) {
+            let Unit { replicate, targets, .. } = row.unit(number, &growing);
+            self.add(replicate, targets, found);
+        }
+        self.growing = growing;
+    }
+
+    /// Has workers trace the units of a row, up to the checkpoint `coming`; `None` where there are
+    /// no workers, `false` when the run was stopped.
+    fn trace_by_workers(
+        &mut self,
+        row: &Row,
+        coming: u64,
+        watch: &mut Watch<'_>,
+    ) -> Option<bool> {
+        let begins = vec![Some(0); self.ends.len()];
+        let (samples, ends) = (self.samples, self.ends.clone());
+        let progress = PathProgress { samples, coming, begins, ends };
+        let frame = || BlockFrame::Bidirectional { progress };
+        let sums = self.growing.len().min(TARGETS) as u64;
+        let size = BlockSize { paths: self.paths_of_a_unit(), sums };
+        let blocks = watch.blocks(frame, self.done..row.len(), size)?;
+        Some(watch.distribute(&blocks, &mut |from| {
+            let (first, found): (u64, Vec<UnitSums>) = (from.value()?, from.value()?);
+            let numbers = first..first.saturating_add(found.len() as u64);
+            let fits = |(number, found): (u64, &UnitSums)| {
+                row.unit(number, &self.growing).targets.len() == found.sums.len()
+            };
+            if numbers.end > row.len() || !numbers.clone().zip(&found).all(fits) {
+                return Err(StateError::Unfit("the sums of a block"));
+            }
+            let sum = |of: fn(&UnitSums) -> u64| found.iter().map(of).sum();
+            let counts = BlockCounts {
+                photons: sum(|it| it.photons),
+                paths: sum(|it| it.work.paths),
+                rays: sum(|it| it.work.rays),
+            };
+            self.add_units(row, numbers, &found);
+            Ok(counts)
+        }))
+    }
+
+    /// Traces units for another process.
+    pub(super) fn trace_units_of(
+        &mut self,
+        frame: &BlockFrame,
+        block: Range<u64>,
+    ) -> Result<Vec<u8>, StateError> {
+        let BlockFrame::Bidirectional { progress } = frame else {
+            return Err(StateError::Unfit("the kind of a block"));
+        };
+        let PathProgress { samples, coming, ends, .. } = progress;
+        if ends.len() != self.ends.len() || samples >= coming {
+            return Err(StateError::Unfit("the progress of the run"));
+        }
+        self.ends.clone_from(ends);
+        self.keep_to_ends();
+        let row = self.row(*samples..*coming);
+        if block.is_empty() || block.end > row.len() {
+            return Err(StateError::Unfit("the range of a block"));
+        }
+        let trace =
+            |number| row.unit(number, &self.growing).trace(&self.engine, self.quantum);
+        let found: Vec<UnitSums> = block.clone().into_par_iter().map(trace).collect();
+        let mut out = Writer::default();
+        out.value(&block.start);
+        out.value(&found);
+        Ok(out.finish())
+    }
+
+    /// Everything, at any time between two rounds.
+    pub(super) fn put_all(&self, out: &mut Writer) {
+        out.value(&self.samples);
+        out.value(&self.done);
+        out.value(&self.ends);
+        self.put_own(out);
+    }
+
+    /// Takes that in, before the first sample; `coming` is the next checkpoint.
+    pub(super) fn take_in_all(
+        &mut self,
+        coming: u64,
+        from: &mut Reader<'_>,
+    ) -> Result<(), StateError> {
+        self.samples = from.value()?;
+        self.done = from.value()?;
+        let ends: Vec<Option<u64>> = from.value()?;
+        let are_past = ends.iter().flatten().all(|end| *end <= self.samples);
+        if ends.len() != self.ends.len() || !are_past || self.samples > coming {
+            return Err(StateError::Unfit("the ends of targets"));
+        }
+        self.ends = ends;
+        self.keep_to_ends();
+        if self.done > self.row(self.samples..coming).len() {
+            return Err(StateError::Unfit("the number of samples"));
+        }
+        self.take_in_own(from)
+    }
+
+    /// What belongs to the indices of a part alone.
+    pub(super) fn put_own(&self, out: &mut Writer) {
+        self.costs.put(out);
+        self.sums.as_slice().put(out);
+    }
+
+    /// Adds that.
+    pub(super) fn take_in_own(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
+        self.costs.merge_from(from)?;
+        self.sums.as_mut_slice().merge_from(from)
+    }
+}
