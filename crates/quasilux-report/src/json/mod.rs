@@ -334,8 +334,7 @@ impl SummaryEntry {
     fn new(sensor: &SensorReport) -> Self {
         let summary = &sensor.summary;
         let unseen = summary.unseen.unwrap_or_default();
-        let entry =
-            |figure, unseen_lx| BoundedEntry { figure: FigureEntry::new(figure), unseen_lx };
+        let entry = BoundedEntry::new;
         Self {
             average_lx: entry(summary.average_lx, unseen.average_lx),
             minimum_lx: entry(summary.minimum_lx, unseen.minimum_lx),

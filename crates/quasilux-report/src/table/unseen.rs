@@ -96,8 +96,8 @@ mod tests {
         let report = example::with_unseen();
         let text = table(&report, Style::Plain);
         let lines: Vec<&str> = text.lines().collect();
-        assert!(lines[0].contains("average    unseen     minimum"), "{text}");
-        assert!(lines[1].contains("200.0 lx   ≤ 0.4 lx   100.0 lx"), "{text}");
+        assert!(lines[0].contains("average        unseen     minimum"), "{text}");
+        assert!(lines[1].contains("200.0 ± 0 lx   ≤ 0.4 lx   0 ± 0 lx"), "{text}");
         assert!(text.contains(
             "\nand at most 0.2 % more light that no sample met (95 %) in averages; at points at \
              most 4 % or at most 0.02 lx where none was found\n"
