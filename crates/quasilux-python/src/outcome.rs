@@ -1,13 +1,12 @@
 //! The results of a run as arrays and files.
 
 use crate::arrays::read_only;
-use crate::progress::unseen_lx;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use quasilux::embedded::{self, CliError, Finished, Project, Stopped};
 use quasilux_report::{CameraReport, SensorReport, Style, json, number, table};
 use quasilux_scene::{Grid, Quantity};
-use quasilux_transport::Pixel;
+use quasilux_transport::{Estimates, Pixel, SensorEstimates};
 use serde::Serialize;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -16,6 +15,15 @@ use std::sync::Arc;
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<Outcome>()?;
     module.add_function(wrap_pyfunction!(figure_text, module)?)
+}
+
+/// The bounds of a sensor's points; no numbers where the estimator has none.
+pub(crate) fn unseen_lx(estimates: &Estimates, sensor: usize) -> Vec<f64> {
+    let SensorEstimates { unseen, direct_lx, .. } = &estimates.sensors[sensor];
+    match unseen {
+        Some(unseen) => unseen.point_lx.clone(),
+        None => vec![f64::NAN; direct_lx.len()],
+    }
 }
 
 /// Why a run has no results.

@@ -3,13 +3,13 @@
 #![allow(clippy::disallowed_methods, reason = "runs are watched by the clock")]
 
 use crate::arrays::read_only;
-use crate::outcome::Failure;
+use crate::outcome::{Failure, unseen_lx};
 use pyo3::exceptions::PyStopIteration;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use quasilux::embedded::{Event, Finished, Project};
 use quasilux_scene::{Sensor, SensorShape};
-use quasilux_transport::{Control, Estimates, Progress as Counts, SensorEstimates};
+use quasilux_transport::{Control, Estimates, Progress as Counts};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender};
 use std::time::{Duration, Instant};
@@ -137,15 +137,6 @@ impl SensorFigures {
         let points = self.illuminance_lx.iter().zip(&self.half_width_lx);
         let shares = points.map(|(lx, half_width)| half_width / lx).filter(|x| x.is_finite());
         shares.reduce(f64::max)
-    }
-}
-
-/// The bounds of a sensor's points; no numbers where the estimator has none.
-pub(crate) fn unseen_lx(estimates: &Estimates, sensor: usize) -> Vec<f64> {
-    let SensorEstimates { unseen, direct_lx, .. } = &estimates.sensors[sensor];
-    match unseen {
-        Some(unseen) => unseen.point_lx.clone(),
-        None => vec![f64::NAN; direct_lx.len()],
     }
 }
 
