@@ -175,9 +175,9 @@ class Result(Mapping[str, SensorResult]):
         -------
         xarray.Dataset
             For a sensor ``desk`` the variables ``desk`` (illuminance), ``desk_half_width``,
-            ``desk_unseen``, ``desk_direct``, ``desk_merged`` and ``desk_replicates``, in lx; over ``desk_v`` and ``desk_u``, lengths
-            in m along the edges of a grid, or over ``desk_point``; with ``desk_x``, ``desk_y`` and
-            ``desk_z``, positions in m.
+            ``desk_unseen``, ``desk_direct``, ``desk_merged`` and ``desk_replicates``, in lx; over
+            ``desk_v`` and ``desk_u``, lengths in m along the edges of a grid, or over
+            ``desk_point``; with ``desk_x``, ``desk_y`` and ``desk_z``, positions in m.
 
         Raises
         ------
