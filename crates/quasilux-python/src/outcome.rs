@@ -6,7 +6,7 @@ use pyo3::types::{PyBytes, PyDict};
 use quasilux::embedded::{self, CliError, Finished, Project, Stopped};
 use quasilux_report::{CameraReport, SensorReport, Style, json, number, table};
 use quasilux_scene::{Grid, Quantity};
-use quasilux_transport::Pixel;
+use quasilux_transport::{Estimates, Pixel, SensorEstimates};
 use serde::Serialize;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -15,6 +15,15 @@ use std::sync::Arc;
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<Outcome>()?;
     module.add_function(wrap_pyfunction!(figure_text, module)?)
+}
+
+/// The bounds of a sensor's points; no numbers where the estimator has none.
+pub(crate) fn unseen_lx(estimates: &Estimates, sensor: usize) -> Vec<f64> {
+    let SensorEstimates { unseen, direct_lx, .. } = &estimates.sensors[sensor];
+    match unseen {
+        Some(unseen) => unseen.point_lx.clone(),
+        None => vec![f64::NAN; direct_lx.len()],
+    }
 }
 
 /// Why a run has no results.
@@ -103,6 +112,11 @@ impl Outcome {
         let lx = points().map(|point| or_nan(point.illuminance_lx.half_width));
         put("half_width_lx", lx.collect(), &shape)?;
         put("direct_lx", points().map(|point| or_nan(point.direct_lx)).collect(), &shape)?;
+        put("unseen_lx", unseen_lx(&self.finished.estimates, index), &shape)?;
+        let lx = points().map(|point| or_nan(point.unseen.merged_lx));
+        put("merged_lx", lx.collect(), &shape)?;
+        let radii_m = points().map(|point| or_nan(point.unseen.disc_radius_m));
+        put("disc_radius_m", radii_m.collect(), &shape)?;
         let positions_m = points().flat_map(|point| point.position_m.to_array());
         put("positions_m", positions_m.collect(), &vectors)?;
         let normals = points().flat_map(|point| point.normal.to_array());

@@ -3,7 +3,7 @@
 #![allow(clippy::disallowed_methods, reason = "runs are watched by the clock")]
 
 use crate::arrays::read_only;
-use crate::outcome::Failure;
+use crate::outcome::{Failure, unseen_lx};
 use pyo3::exceptions::PyStopIteration;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -46,6 +46,7 @@ struct SensorFigures {
     shape: Vec<usize>,
     illuminance_lx: Vec<f64>,
     half_width_lx: Vec<f64>,
+    unseen_lx: Vec<f64>,
 }
 
 /// Tells the caller's thread of a run.
@@ -127,6 +128,7 @@ impl SensorFigures {
             shape,
             illuminance_lx: intervals.iter().map(|interval| interval.value).collect(),
             half_width_lx: intervals.iter().map(|it| half_width(it.half_width)).collect(),
+            unseen_lx: unseen_lx(estimates, index),
         }
     }
 
@@ -175,15 +177,24 @@ pub(crate) struct Progress {
     is_checkpoint: bool,
     illuminance_lx: Py<PyDict>,
     half_width_lx: Py<PyDict>,
+    unseen_lx: Py<PyDict>,
 }
 
 impl Progress {
     fn new(py: Python<'_>, standing: Standing, is_checkpoint: bool) -> PyResult<Self> {
         let Standing { counts, seconds, camera, sensors } = standing;
-        let (illuminance_lx, half_width_lx) = (PyDict::new(py), PyDict::new(py));
-        for SensorFigures { name, shape, illuminance_lx: lx, half_width_lx: widths } in sensors {
+        let [illuminance_lx, half_width_lx, unseen_lx] = [(); 3].map(|()| PyDict::new(py));
+        for SensorFigures {
+            name,
+            shape,
+            illuminance_lx: lx,
+            half_width_lx: widths,
+            unseen_lx: unseen,
+        } in sensors
+        {
             illuminance_lx.set_item(&name, read_only(py, lx, &shape))?;
             half_width_lx.set_item(&name, read_only(py, widths, &shape))?;
+            unseen_lx.set_item(&name, read_only(py, unseen, &shape))?;
         }
         Ok(Self {
             photons: counts.photons,
@@ -200,6 +211,7 @@ impl Progress {
             is_checkpoint,
             illuminance_lx: illuminance_lx.unbind(),
             half_width_lx: half_width_lx.unbind(),
+            unseen_lx: unseen_lx.unbind(),
         })
     }
 }

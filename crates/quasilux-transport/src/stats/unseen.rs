@@ -82,6 +82,7 @@ fn mean(lx: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::codec::{Reader, Writer};
 
     fn two() -> UnseenLight {
         UnseenLight {
@@ -104,6 +105,18 @@ mod tests {
         assert_eq!(replaced.point_lx, [f64::INFINITY, 0.4]);
         assert_eq!(replaced.average_lx, f64::INFINITY);
         assert_eq!(replaced.disc_radius_m, [None, None]);
+    }
+
+    /// In the bytes of a checkpoint, where nothing is known, too.
+    #[test]
+    fn bounds_come_back() {
+        for unseen in [two(), UnseenLight::unknown(3)] {
+            let mut out = Writer::default();
+            out.value(&Some(&unseen));
+            let bytes = out.finish();
+            let read: Option<UnseenLight> = Reader::new(&bytes).value().unwrap();
+            assert_eq!(read, Some(unseen));
+        }
     }
 
     /// ln(196 / 0.05) = 8.27: the bound in W where 196 points are to hold at once.
