@@ -20,8 +20,13 @@ pub(super) struct Dice {
 }
 
 impl Dice {
-    pub(super) fn new(number: u64) -> Self {
-        Self { state: number.wrapping_mul(0xd134_2543_de82_ef95), drawn: Vec::new() }
+    /// Those of a room: of its number and of the name of its family, FNV-1a of which tells families
+    /// apart, so that a new family changes no other.
+    pub(super) fn new(family: &str, number: u64) -> Self {
+        let name = family.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
+            (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+        });
+        Self { state: name ^ number.wrapping_mul(0xd134_2543_de82_ef95), drawn: Vec::new() }
     }
 
     /// Uniform in [0, 1): splitmix64 (Steele, Lea and Flood 2014).
@@ -57,6 +62,11 @@ impl Dice {
         let count = low + (self.unit() * steps) as u32;
         self.tell(name, f64::from(count));
         count
+    }
+
+    /// Whether a thing is there that half the rooms have, under a name.
+    pub(super) fn coin(&mut self, name: &'static str) -> bool {
+        self.count(name, 0, 1) == 1
     }
 
     /// Remembers a value.

@@ -1,8 +1,8 @@
 //! Two rooms and a narrow way between them.
 
-use crate::gauntlet::dice::Dice;
-use crate::gauntlet::room::{Room, Surface};
-use crate::gauntlet::shell::{Block, Opening, Side};
+use crate::dice::Dice;
+use crate::room::{Room, Surface};
+use crate::shell::{Block, Opening, Side};
 use glam::DVec3;
 
 /// A dark room and a lit one, the wall between them from x = `WALL_M` on.
@@ -50,7 +50,7 @@ fn add_spot_on_floor(room: &mut Room, hole: Opening, lamp: DVec3, start: f64, da
 }
 
 /// A door that stands open by a hair.
-pub(super) fn door(dice: &mut Dice) -> Room {
+pub(crate) fn door(dice: &mut Dice) -> Room {
     let mut room = Room::empty();
     let gap = dice.log("gap m", 0.003, 0.15);
     let hole = Opening { side: Side::HighX, low: [1.8, 0.0], high: [1.8 + gap, 2.0] };
@@ -73,7 +73,7 @@ pub(super) fn door(dice: &mut Dice) -> Room {
 }
 
 /// A night light, and a keyhole to a bright room.
-pub(super) fn keyhole(dice: &mut Dice) -> Room {
+pub(crate) fn keyhole(dice: &mut Dice) -> Room {
     let mut room = Room::empty();
     let side = dice.log("hole m", 0.006, 0.08);
     let hole = Opening { side: Side::HighX, low: [1.6, 1.0], high: [1.6 + side, 1.0 + side] };
@@ -90,7 +90,7 @@ pub(super) fn keyhole(dice: &mut Dice) -> Room {
 }
 
 /// Sensors from right under the lamp to the far end of a dark room behind a small opening.
-pub(super) fn decades(dice: &mut Dice) -> Room {
+pub(crate) fn decades(dice: &mut Dice) -> Room {
     let mut room = Room::empty();
     let side = dice.log("opening m", 0.02, 0.3);
     let hole = Opening { side: Side::HighX, low: [2.0, 0.9], high: [2.0 + side, 0.9 + side] };

@@ -1,8 +1,8 @@
 //! A corridor with bends, the lamp at its far end.
 
-use crate::gauntlet::dice::Dice;
-use crate::gauntlet::room::{Parallelogram, Room, Surface};
-use crate::gauntlet::shell::{Block, Opening, Side};
+use crate::dice::Dice;
+use crate::room::{Parallelogram, Room, Surface};
+use crate::shell::{Block, Opening, Side};
 use glam::DVec3;
 
 const HEIGHT_M: f64 = 2.5;
@@ -16,7 +16,7 @@ struct Bend {
 }
 
 /// Legs along x and y in turn, a corner between each two, open toward each other.
-pub(super) fn corridor(dice: &mut Dice) -> Room {
+pub(crate) fn corridor(dice: &mut Dice) -> Room {
     let mut room = Room::empty();
     let bends = dice.count("bends", 1, 3);
     let width = dice.draw("width m", 1.0, 2.5);

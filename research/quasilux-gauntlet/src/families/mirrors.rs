@@ -1,13 +1,13 @@
 //! Light that comes over mirrors. All lights have areas: light of points over mirrors cannot be
 //! found by directions.
 
-use crate::gauntlet::dice::Dice;
-use crate::gauntlet::room::{Parallelogram, Room, Surface};
-use crate::gauntlet::shell::{Block, Opening, Side};
+use crate::dice::Dice;
+use crate::room::{Parallelogram, Room, Surface};
+use crate::shell::{Block, Opening, Side};
 use glam::DVec3;
 
 /// A small bright light behind a baffle that only a mirror shows, and a panel on the ceiling.
-pub(super) fn baffle(dice: &mut Dice) -> Room {
+pub(crate) fn baffle(dice: &mut Dice) -> Room {
     let mut room = Room::empty();
     let block = Block::new([0.0; 3], [5.0, 4.0, 2.8]);
     room.add_shell(block, Surface::Grey(dice.draw("reflectance", 0.2, 0.6)), &[]);
@@ -37,7 +37,7 @@ pub(super) fn baffle(dice: &mut Dice) -> Room {
 }
 
 /// Two rooms above each other, and two mirrors at 45 degrees in a shaft beside them.
-pub(super) fn periscope(dice: &mut Dice) -> Room {
+pub(crate) fn periscope(dice: &mut Dice) -> Room {
     let mut room = Room::empty();
     let side = dice.log("shaft m", 0.1, 0.6);
     let reflectance = dice.draw("mirrors", 0.7, 0.98);

@@ -1,12 +1,12 @@
 //! Light behind a ledge below the ceiling.
 
-use crate::gauntlet::dice::Dice;
-use crate::gauntlet::room::{Parallelogram, Room, Surface};
-use crate::gauntlet::shell::{Block, Opening, Side};
+use crate::dice::Dice;
+use crate::room::{Parallelogram, Room, Surface};
+use crate::shell::{Block, Opening, Side};
 use glam::DVec3;
 
 /// A ledge along a wall, its strip or its row of lamps unseen from below.
-pub(super) fn cove(dice: &mut Dice) -> Room {
+pub(crate) fn cove(dice: &mut Dice) -> Room {
     let mut room = Room::empty();
     let block = Block::new([0.0; 3], [5.0, 6.0, 3.0]);
     let walls = Surface::Grey(dice.draw("reflectance", 0.3, 0.85));

@@ -1,12 +1,12 @@
 //! Small bright things: a beam on a wall, a lamp in a tube, a panel of a few centimetres.
 
-use crate::gauntlet::dice::Dice;
-use crate::gauntlet::room::{Lamp, Parallelogram, Room, Shine, Surface};
-use crate::gauntlet::shell::{Block, Opening, Side};
+use crate::dice::Dice;
+use crate::room::{Lamp, Parallelogram, Room, Shine, Surface};
+use crate::shell::{Block, Opening, Side};
 use glam::DVec3;
 
 /// An evenly lit room, and a narrow beam on a wall.
-pub(super) fn beam(dice: &mut Dice) -> Room {
+pub(crate) fn beam(dice: &mut Dice) -> Room {
     let mut room = Room::empty();
     let block = Block::new([0.0; 3], [6.0, 5.0, 2.8]);
     room.add_shell(block, Surface::Grey(dice.draw("reflectance", 0.3, 0.8)), &[]);
@@ -41,7 +41,7 @@ fn solid_angle(half_deg: f64) -> f64 {
 }
 
 /// A lamp deep in a tube that is open at the top.
-pub(super) fn tube(dice: &mut Dice) -> Room {
+pub(crate) fn tube(dice: &mut Dice) -> Room {
     let mut room = Room::empty();
     let block = Block::new([0.0; 3], [5.0, 4.0, 3.0]);
     room.add_shell(block, Surface::Grey(dice.draw("reflectance", 0.2, 0.8)), &[]);
@@ -72,7 +72,7 @@ pub(super) fn tube(dice: &mut Dice) -> Room {
 }
 
 /// A bright panel of a few centimetres beside two ordinary luminaires.
-pub(super) fn panel(dice: &mut Dice) -> Room {
+pub(crate) fn panel(dice: &mut Dice) -> Room {
     let mut room = Room::empty();
     let block = Block::new([0.0; 3], [6.0, 4.0, 2.8]);
     room.add_shell(block, Surface::Grey(dice.draw("reflectance", 0.3, 0.7)), &[]);

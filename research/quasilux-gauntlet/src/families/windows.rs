@@ -1,8 +1,8 @@
 //! Daylight that has to squeeze in: louvres, a slit, a shaft.
 
-use crate::gauntlet::dice::Dice;
-use crate::gauntlet::room::{Parallelogram, Room, Surface};
-use crate::gauntlet::shell::{Block, Opening, Side};
+use crate::dice::Dice;
+use crate::room::{Parallelogram, Room, Surface};
+use crate::shell::{Block, Opening, Side};
 use glam::DVec3;
 
 const SIZE_M: [f64; 3] = [6.0, 4.0, 2.8];
@@ -15,7 +15,7 @@ fn add_sky(room: &mut Room, distance_m: f64, luminance_cd_m2: f64) {
 }
 
 /// Slats over a window, open by a share of their distance.
-pub(super) fn louvres(dice: &mut Dice) -> Room {
+pub(crate) fn louvres(dice: &mut Dice) -> Room {
     let mut room = Room::empty();
     let block = Block::new([0.0; 3], SIZE_M);
     let window = Opening { side: Side::LowX, low: [1.0, 0.9], high: [3.0, 2.1] };
@@ -39,7 +39,7 @@ pub(super) fn louvres(dice: &mut Dice) -> Room {
 }
 
 /// A slit in a thick wall.
-pub(super) fn slit(dice: &mut Dice) -> Room {
+pub(crate) fn slit(dice: &mut Dice) -> Room {
     let mut room = Room::empty();
     let block = Block::new([0.0; 3], SIZE_M);
     let width = dice.log("slit m", 0.001, 0.05);
@@ -68,7 +68,7 @@ pub(super) fn slit(dice: &mut Dice) -> Room {
 }
 
 /// A deep shaft to the sky.
-pub(super) fn shaft(dice: &mut Dice) -> Room {
+pub(crate) fn shaft(dice: &mut Dice) -> Room {
     let mut room = Room::empty();
     let block = Block::new([0.0; 3], SIZE_M);
     let side = dice.log("side m", 0.15, 1.0);

@@ -1,15 +1,15 @@
 //! Many luminaires in cells, of which few matter.
 
-use crate::gauntlet::dice::Dice;
-use crate::gauntlet::room::{Room, Surface};
-use crate::gauntlet::shell::{Block, Opening, Side};
+use crate::dice::Dice;
+use crate::room::{Room, Surface};
+use crate::shell::{Block, Opening, Side};
 use glam::DVec3;
 
 const CELL_M: f64 = 3.0;
 const HEIGHT_M: f64 = 2.6;
 
 /// Cells in rows and columns, a door in every wall between two; sensors in the first ones.
-pub(super) fn cells(dice: &mut Dice) -> Room {
+pub(crate) fn cells(dice: &mut Dice) -> Room {
     let mut room = Room::empty();
     let counts = [dice.count("columns", 3, 6), dice.count("rows", 2, 5)];
     let lamps = dice.count("lamps of a cell", 9, 10);

@@ -1,12 +1,12 @@
 //! Single rooms: plain, furnished, white.
 
-use crate::gauntlet::dice::Dice;
-use crate::gauntlet::room::{Room, Surface};
-use crate::gauntlet::shell::{Block, Opening, Side};
+use crate::dice::Dice;
+use crate::room::{Room, Surface};
+use crate::shell::{Block, Opening, Side};
 use glam::DVec3;
 
 /// A box with one isotropic lamp: a control.
-pub(super) fn plain(dice: &mut Dice) -> Room {
+pub(crate) fn plain(dice: &mut Dice) -> Room {
     let mut room = Room::empty();
     let size = [dice.draw("length m", 3.0, 9.0), dice.draw("width m", 3.0, 6.0), 3.0];
     let walls = Surface::Grey(dice.draw("reflectance", 0.2, 0.8));
@@ -22,7 +22,7 @@ pub(super) fn plain(dice: &mut Dice) -> Room {
 }
 
 /// Desks and cupboards under downlights: a control.
-pub(super) fn office(dice: &mut Dice) -> Room {
+pub(crate) fn office(dice: &mut Dice) -> Room {
     let mut room = Room::empty();
     let size = DVec3::new(dice.draw("length m", 5.0, 10.0), dice.draw("width m", 4.0, 7.0), 2.8);
     let walls = Surface::Grey(dice.draw("reflectance", 0.4, 0.75));
@@ -55,7 +55,7 @@ pub(super) fn office(dice: &mut Dice) -> Room {
 }
 
 /// Walls that reflect nearly all, and a hole that light leaves by.
-pub(super) fn white(dice: &mut Dice) -> Room {
+pub(crate) fn white(dice: &mut Dice) -> Room {
     let mut room = Room::empty();
     let block = Block::new([0.0; 3], [dice.draw("length m", 2.0, 5.0), 3.0, 2.5]);
     let loss = dice.log("absorbed", 0.02, 0.1);

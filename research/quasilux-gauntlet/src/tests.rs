@@ -1,0 +1,1 @@
+//! Rooms, and both programs in them.
