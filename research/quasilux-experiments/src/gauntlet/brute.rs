@@ -11,8 +11,7 @@ pub(super) fn brute_scene(room: &Room) -> brute::Scene {
         let super::Parallelogram { corner, u, v } = it.shape;
         brute::Lookout::new(corner, u, v).from_within(it.low, it.high)
     };
-    let sensor =
-        |it: &super::SensorPlace| brute::Sensor { position: it.position, normal: it.normal };
+    let sensor = |it: &super::SensorPlace| brute::Sensor::point(it.position, it.normal);
     brute::Scene {
         triangles: room.faces.iter().flat_map(triangles).collect(),
         lights: room.lamps.iter().map(light).collect(),
@@ -20,13 +19,14 @@ pub(super) fn brute_scene(room: &Room) -> brute::Scene {
         hints: room.hints.iter().map(hint).collect(),
         hint_share,
         late_hint_share,
+        ..brute::Scene::default()
     }
 }
 
 fn triangles(face: &Face) -> [brute::Triangle; 2] {
     let [a, b, c, d] = face.corners;
     let surface = match face.surface {
-        Surface::Grey(reflectance) => brute::Surface::Grey { reflectance, two_sided: true },
+        Surface::Grey(reflectance) => brute::Surface::grey(reflectance),
         Surface::Mirror(reflectance) => brute::Surface::Mirror { reflectance },
     };
     let luminance_cd_m2 = face.luminance_cd_m2;
