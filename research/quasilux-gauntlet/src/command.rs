@@ -33,7 +33,8 @@ pub fn run(arguments: &[String]) -> Result<bool, String> {
 
 fn list() {
     for family in &families::ALL {
-        println!("{}: {}", family.name, family.witness.name());
+        let ways = room_of(family.name, 0).map(|room| room.witness().join(", "));
+        println!("{}: {}", family.name, ways.unwrap_or_default());
     }
 }
 
@@ -155,7 +156,8 @@ fn new_run(stage: &Result<Stage, String>, key: RunKey) -> RunRecord {
 /// What tells this program from others: a hash of its file.
 fn program_digest() -> Result<String, String> {
     let path = std::env::current_exe().map_err(|error| error.to_string())?;
-    let bytes = fs::read(Path::new(&path)).map_err(|error| format!("{}: {error}", path.display()))?;
+    let bytes =
+        fs::read(Path::new(&path)).map_err(|error| format!("{}: {error}", path.display()))?;
     let mut hash = Fnv::new();
     hash.bytes(&bytes);
     Ok(hash.text())

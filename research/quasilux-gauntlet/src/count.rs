@@ -106,7 +106,8 @@ impl Count {
         self.is_false += count(|it| it.is_false);
         self.is_false_with_bound += count(|it| it.is_false_with_bound);
         self.much_unseen += count(|it| it.is_much_unseen);
-        self.covered.add(count(|it| it.is_little_unseen && it.covers), count(|it| it.is_little_unseen));
+        self.covered
+            .add(count(|it| it.is_little_unseen && it.covers), count(|it| it.is_little_unseen));
         self.covered_with_bound.add(count(|it| it.covers_with_bound), judged.len() as u32);
         let sigmas = judged.iter().map(|it| it.sigmas);
         self.largest_sigmas = sigmas.fold(self.largest_sigmas, f64::max);

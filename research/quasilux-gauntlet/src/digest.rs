@@ -31,6 +31,9 @@ impl Room {
             hash.vector(place.position);
             hash.vector(place.normal);
             place.cell.into_iter().flatten().for_each(|edge| hash.vector(edge));
+            if place.disc_radius_m > 0.0 {
+                hash.numbers(&[place.disc_radius_m]);
+            }
         }
         self.digest_outside(&mut hash);
         hash.text()

@@ -203,11 +203,20 @@ mod tests {
         let effort = parsed("--rooms 3 --seeds 2 --limits 1,3 --estimator path --rel-tol 0.01");
         let effort = effort.unwrap();
         assert_eq!((effort.rooms, effort.seeds, effort.rel_tol), (3, 2, 0.01));
-        assert_eq!((effort.limits_s, effort.estimators), (vec![1.0, 3.0], vec![EstimatorKind::Path]));
+        assert_eq!(
+            (effort.limits_s, effort.estimators),
+            (vec![1.0, 3.0], vec![EstimatorKind::Path])
+        );
         assert_eq!(parsed("").unwrap().estimators, [EstimatorKind::Bidirectional]);
         for wrong in [
-            "--rooms", "--rooms x", "--limits 3,1", "--limits 0", "--estimator paths",
-            "--family nowhere", "--no-option 3", "--rel-tol 0",
+            "--rooms",
+            "--rooms x",
+            "--limits 3,1",
+            "--limits 0",
+            "--estimator paths",
+            "--family nowhere",
+            "--no-option 3",
+            "--rel-tol 0",
         ] {
             assert!(parsed(wrong).is_err(), "{wrong}");
         }

@@ -43,11 +43,9 @@ impl Judgement {
         Some(Self {
             sigmas: above.abs(),
             is_false: above.abs() > FALSE_FROM,
-            is_false_with_bound: above < -FALSE_FROM
-                || above > FALSE_FROM + UNSEEN_FROM * unseen,
+            is_false_with_bound: above < -FALSE_FROM || above > FALSE_FROM + UNSEEN_FROM * unseen,
             covers,
-            covers_with_bound: covers
-                || (above > 0.0 && above <= HALF_WIDTH_PER_ERROR + unseen),
+            covers_with_bound: covers || (above > 0.0 && above <= HALF_WIDTH_PER_ERROR + unseen),
             is_little_unseen: unseen_lx <= LITTLE_UNSEEN * half_width,
             is_much_unseen: unseen_lx > UNSEEN_TOL.max(rel_tol) * point.lx,
         })

@@ -26,15 +26,16 @@ pub mod references;
 mod report;
 mod room;
 mod shell;
+mod solids;
 pub mod trial;
 
-pub use brute_scene::brute_scene;
+pub use brute_scene::{brute_parts, brute_scene};
 pub use dice::Parameter;
 pub use project::{NamedFile, ProjectFiles, Slot};
 pub use report::{Report, Subject};
 pub use room::{
-    Face, Lamp, Lookout, Outside, Parallelogram, Room, SensorPlace, Shine, SkyKind, SunPlace,
-    Surface, Witness,
+    Face, Found, Lamp, Lookout, Outside, Parallelogram, Room, SensorPlace, Shine, SkyKind,
+    SunPlace, Surface,
 };
 
 use dice::Dice;

@@ -197,7 +197,8 @@ impl Room {
 impl Files for ProjectFiles {
     fn read(&self, path: &str, _kind: FileKind) -> io::Result<Vec<u8>> {
         let file = self.others.iter().find(|file| file.name == path);
-        file.map(|file| file.text.clone().into_bytes()).ok_or_else(|| io::ErrorKind::NotFound.into())
+        file.map(|file| file.text.clone().into_bytes())
+            .ok_or_else(|| io::ErrorKind::NotFound.into())
     }
 }
 

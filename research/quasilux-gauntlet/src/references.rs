@@ -1,8 +1,8 @@
 //! What the brute-force program finds, computed once a room and kept by its digest.
 
-use crate::brute_scene::brute_scene;
+use crate::brute_scene::{brute_parts, brute_scene};
 use crate::room::Room;
-use quasilux_brute::{Estimate, Limits, solve_until};
+use quasilux_brute::{Estimate, Limits, solve_parts};
 use serde::{Deserialize, Serialize};
 use std::fs;
 use std::io;
@@ -77,8 +77,8 @@ impl RoomReferences {
 }
 
 impl ReferenceStore {
-    /// The references of a room: kept ones, else new ones; `None` where the brute-force program
-    /// does not know what is in the room, or may not look.
+    /// The references of a room: kept ones, else new ones; `None` where there are none and none may
+    /// be computed.
     ///
     /// # Errors
     /// When the folder cannot be written.
@@ -98,31 +98,32 @@ impl ReferenceStore {
         if self.seconds <= 0.0 || best.as_ref().is_some_and(suffices) {
             return Ok(best);
         }
-        let Some(new) = self.computed(room) else { return Ok(best) };
+        let new = self.computed(room);
         fs::create_dir_all(&self.folder)?;
         fs::write(&path, serde_json::to_string(&new)?)?;
         Ok(Some(new))
     }
 
     #[expect(clippy::disallowed_methods, reason = "a reference may take so long")]
-    fn computed(&self, room: &Room) -> Option<RoomReferences> {
-        let scene = brute_scene(room)?;
+    fn computed(&self, room: &Room) -> RoomReferences {
+        let scene = brute_scene(room);
+        let parts = brute_parts(room, &scene);
         // Of two halves each has the root of two of the error of both.
         let relative_error = self.relative_error * std::f64::consts::SQRT_2;
         let limits = Limits { relative_error, paths: 1 << 40 };
         let halves = SEEDS.map(|seed| {
             let start = Instant::now();
             let may_go_on = || start.elapsed().as_secs_f64() < 0.5 * self.seconds;
-            solve_until(&scene, limits, seed, may_go_on)
+            solve_parts(&scene, &parts, limits, seed, may_go_on)
         });
-        Some(RoomReferences {
+        RoomReferences {
             family: room.family.to_owned(),
             number: room.number,
             digest: room.digest(),
             relative_error: self.relative_error,
             seconds: self.seconds,
             points: (0..room.places.len()).map(|k| joined([halves[0][k], halves[1][k]])).collect(),
-        })
+        }
     }
 }
 

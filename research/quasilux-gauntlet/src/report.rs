@@ -89,13 +89,14 @@ fn by_family(text: &mut String, count: &Counting<'_>) {
         if own.runs + own.refused + own.crashed == 0 {
             continue;
         }
-        let witness = families::ALL.iter().find(|family| Some(family.name) == name);
+        let room = name.and_then(|name| crate::room_of(name, 0));
+        let witness = room.map(|room| room.witness().join(", ")).unwrap_or_default();
         put(
             text,
             format_args!(
                 "| {} | {} | {} | {} | {} | {} | {} | {:.2} | {:.1} | {} | {} | {} | {} | {} |\n",
                 name.unwrap_or("all"),
-                witness.map_or("", |family| family.witness.name()),
+                witness,
                 own.rooms.len(),
                 own.runs,
                 own.intervals,
@@ -170,8 +171,7 @@ fn claims(subject: &Subject<'_>, count: &Counting<'_>) -> Vec<Claim> {
         let own = count(None, Some(limit_s));
         let both = own.covered_with_bound;
         if both.runs >= FEW_RUNS {
-            let least = COVERED_WITH_BOUND
-                - 2.0 * chance::deviation(COVERED_WITH_BOUND, both.runs);
+            let least = COVERED_WITH_BOUND - 2.0 * chance::deviation(COVERED_WITH_BOUND, both.runs);
             let text = format!(
                 "at {limit_s} s both numbers cover {} in {} runs, at least {} is wanted",
                 per_cent(both.value()),

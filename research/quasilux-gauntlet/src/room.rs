@@ -2,7 +2,6 @@
 
 use crate::dice::{Dice, Parameter};
 use glam::DVec3;
-use serde::{Deserialize, Serialize};
 
 /// A room of the gauntlet, lengths in m.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,6 +26,18 @@ pub struct Room {
     pub hints: Vec<Lookout>,
     /// The shares of directions that such a reference sends there, at first and after bounces.
     pub hint_shares: [f64; 2],
+    /// Where its walks from the lights are sent.
+    pub aims: Vec<Lookout>,
+    /// The share of their directions that go there.
+    pub aim_share: f64,
+    /// All ways in for walks from sky and sun, `u x v` outward; none where they come from around.
+    pub ways_in: Vec<Parallelogram>,
+    /// How the reference finds the light of faces that shine.
+    pub emitters_found: Found,
+    /// The same of the sky and the ground.
+    pub sky_found: Found,
+    /// The same of the sun.
+    pub sun_found: Found,
 }
 
 /// A flat polygon, its front where its corners run counter-clockwise.
@@ -74,6 +85,8 @@ pub struct Lamp {
     pub position: DVec3,
     /// How it shines.
     pub shine: Shine,
+    /// How the reference finds its light.
+    pub found: Found,
 }
 
 /// How a point light shines.
@@ -132,6 +145,9 @@ pub struct SensorPlace {
     pub normal: DVec3,
     /// Edges of the cell.
     pub cell: Option<[DVec3; 2]>,
+    /// Of a point, the radius of the disc that light is counted on which only photons can bring, so
+    /// that its mean over the disc is what a reference has.
+    pub disc_radius_m: f64,
 }
 
 /// A parallelogram with edges from a corner.
@@ -156,26 +172,32 @@ pub struct Lookout {
     pub high: DVec3,
 }
 
-/// What the reference relies on in a family: a closed set.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Witness {
-    /// Paths from the sensors alone: nothing there is hard for them.
+/// How the reference finds the light of a source: a closed set.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Found {
+    /// By paths from the sensors, which miss light of point lights over mirrors and through glass.
     Paths,
-    /// Paths from the sensors that are told where to look.
-    ToldPaths,
-    /// Walks from the lights, joined to the sensors.
-    Walks,
+    /// By walks from the lights that are joined to the sensors; what comes over mirrors or through
+    /// glass to a sensor is counted on its cell or disc.
+    Joins,
+    /// The same, and light that comes straight to a cell is counted as well.
+    BeamsAndJoins,
+    /// By walks that are counted on cells and discs alone.
+    Photons,
 }
 
-impl Witness {
+impl Found {
+    /// All ways.
+    pub const ALL: [Self; 4] = [Self::Paths, Self::Joins, Self::BeamsAndJoins, Self::Photons];
+
     /// In a few words.
     #[must_use]
-    pub fn name(self) -> &'static str {
+    pub const fn name(self) -> &'static str {
         match self {
             Self::Paths => "paths",
-            Self::ToldPaths => "paths, told where to look",
-            Self::Walks => "walks from the lights",
+            Self::Joins => "walks joined to sensors",
+            Self::BeamsAndJoins => "walks joined and counted",
+            Self::Photons => "walks counted",
         }
     }
 }
@@ -194,18 +216,25 @@ impl Room {
             places: Vec::new(),
             hints: Vec::new(),
             hint_shares: [0.5, 0.1],
+            aims: Vec::new(),
+            aim_share: 0.0,
+            ways_in: Vec::new(),
+            emitters_found: Found::Paths,
+            sky_found: Found::Paths,
+            sun_found: Found::Paths,
         }
     }
 
     pub(super) fn add_place(&mut self, position: DVec3, normal: DVec3) {
-        self.places.push(SensorPlace { position, normal, cell: None });
+        self.places.push(SensorPlace { position, normal, cell: None, disc_radius_m: 0.0 });
     }
 
     /// Adds a square cell whose mean is asked for, around a place.
     pub(super) fn add_cell(&mut self, middle: DVec3, normal: DVec3, side_m: f64) {
         let (s, t) = normal.any_orthonormal_pair();
         let position = middle - 0.5 * side_m * (s + t);
-        self.places.push(SensorPlace { position, normal, cell: Some([s * side_m, t * side_m]) });
+        let cell = Some([s * side_m, t * side_m]);
+        self.places.push(SensorPlace { position, normal, cell, disc_radius_m: 0.0 });
     }
 
     /// Adds sensor points in the air of a box, and one of three on its floor.
@@ -221,7 +250,8 @@ impl Room {
     }
 
     pub(super) fn add_lamp(&mut self, position: DVec3, intensity_cd: f64) {
-        self.lamps.push(Lamp { position, shine: Shine::Everywhere(intensity_cd) });
+        let shine = Shine::Everywhere(intensity_cd);
+        self.lamps.push(Lamp { position, shine, found: Found::Paths });
     }
 
     /// A lamp with the intensity of a flat panel, in steps of 10 degrees.
@@ -232,21 +262,51 @@ impl Room {
             [gamma_deg, intensity_cd * cos]
         };
         let rows = (0..10).map(row).collect();
-        self.lamps.push(Lamp { position, shine: Shine::Table { aim: DVec3::NEG_Z, rows } });
+        let shine = Shine::Table { aim: DVec3::NEG_Z, rows };
+        self.lamps.push(Lamp { position, shine, found: Found::Paths });
     }
 
-    /// A beam of a flux within a half angle, from which it falls to nothing within a tenth of it.
+    /// A beam of a flux within a half angle, from which it falls to nothing within a tenth of it;
+    /// the reference finds it by walks.
     pub(super) fn add_beam(&mut self, from: DVec3, to: DVec3, half_deg: f64, flux_lm: f64) {
         let sin = libm::sin(0.525 * half_deg.to_radians());
         let intensity_cd = flux_lm / (4.0 * std::f64::consts::PI * sin * sin);
-        let rows = vec![
-            [0.0, intensity_cd],
-            [half_deg, intensity_cd],
-            [1.1 * half_deg, 0.0],
-            [90.0, 0.0],
-        ];
+        let rows =
+            vec![[0.0, intensity_cd], [half_deg, intensity_cd], [1.1 * half_deg, 0.0], [90.0, 0.0]];
         let aim = (to - from).normalize();
-        self.lamps.push(Lamp { position: from, shine: Shine::Table { aim, rows } });
+        let shine = Shine::Table { aim, rows };
+        self.lamps.push(Lamp { position: from, shine, found: Found::Joins });
+    }
+
+    /// Has the reference find the light of all lamps, faces, sky and sun in one way.
+    pub(super) fn find_all(&mut self, found: Found) {
+        self.lamps.iter_mut().for_each(|lamp| lamp.found = found);
+        (self.emitters_found, self.sky_found, self.sun_found) = (found, found, found);
+    }
+
+    /// The same room with other discs about its points; `None` leaves one as it is.
+    pub(crate) fn with_discs(&self, radii_m: &[Option<f64>]) -> Self {
+        let mut room = self.clone();
+        for (place, radius_m) in room.places.iter_mut().zip(radii_m) {
+            place.disc_radius_m = radius_m.unwrap_or(place.disc_radius_m);
+        }
+        room
+    }
+
+    /// How the reference finds the light of this room.
+    pub(crate) fn witness(&self) -> Vec<&'static str> {
+        let mut ways: Vec<Found> = self.lamps.iter().map(|lamp| lamp.found).collect();
+        if self.faces.iter().any(|face| face.luminance_cd_m2 > 0.0) {
+            ways.push(self.emitters_found);
+        }
+        if let Some(outside) = &self.outside {
+            ways.push(self.sky_found);
+            ways.extend(outside.sun.map(|_| self.sun_found));
+        }
+        let is_told = !self.hints.is_empty() || !self.aims.is_empty();
+        let own = |way: Found| ways.contains(&way).then(|| way.name());
+        let told = is_told.then_some("told where to look");
+        Found::ALL.into_iter().filter_map(own).chain(told).collect()
     }
 
     /// Adds a panel with edges `u` and `v` that shines along `u x v`.
@@ -289,5 +349,22 @@ impl Parallelogram {
     pub(super) fn image(&self, place: DVec3, n: DVec3) -> Self {
         let turned = |v: DVec3| v - n * (2.0 * v.dot(n));
         Self { corner: place + turned(self.corner - place), u: turned(self.u), v: turned(self.v) }
+    }
+}
+
+impl Outside {
+    /// A sky over ordinary ground.
+    pub(crate) fn sky(sky: SkyKind, zenith_cd_m2: f64) -> Self {
+        Self { sky, zenith_cd_m2, ground_reflectance: 0.2, sun: None }
+    }
+}
+
+impl SunPlace {
+    /// The unit direction to its middle.
+    pub(crate) fn direction(&self) -> DVec3 {
+        let (sin_altitude, cos_altitude) = libm::sincos(self.altitude_deg.to_radians());
+        let (sin_azimuth, cos_azimuth) = libm::sincos(self.azimuth_deg.to_radians());
+        let flat = DVec3::new(sin_azimuth, cos_azimuth, 0.0) * cos_altitude;
+        (flat + DVec3::Z * sin_altitude).normalize()
     }
 }

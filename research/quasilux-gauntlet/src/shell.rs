@@ -175,6 +175,13 @@ impl Room {
         }
     }
 
+    /// Adds one side, its front outward.
+    pub(super) fn add_outer_side(&mut self, block: Block, side: Side, surface: Surface) {
+        let first = self.faces.len();
+        self.add_side(block, side, surface, &[]);
+        self.faces[first..].iter_mut().for_each(|face| face.corners.reverse());
+    }
+
     fn add_inward(&mut self, mut cell: Parallelogram, side: Side, surface: Surface) {
         let points_up = cell.u.cross(cell.v)[side.axis()] > 0.0;
         if points_up == side.is_high() {

@@ -89,9 +89,8 @@ impl Watch<'_> {
     }
 
     fn look(&self, estimates: &Estimates) -> LookRecord {
-        let intervals: Vec<_> = (0..estimates.sensors.len())
-            .map(|sensor| estimates.point_intervals(sensor))
-            .collect();
+        let intervals: Vec<_> =
+            (0..estimates.sensors.len()).map(|sensor| estimates.point_intervals(sensor)).collect();
         let point = |slot: &Slot| {
             let interval = intervals[slot.sensor][slot.point];
             PointRecord {

@@ -37,7 +37,7 @@ fn factor() -> f64 {
 }
 
 fn up(x: f64, y: f64, z: f64) -> Sensor {
-    Sensor { position: DVec3::new(x, y, z), normal: DVec3::Z }
+    Sensor::point(DVec3::new(x, y, z), DVec3::Z)
 }
 
 /// Seed 1; 5 standard errors, which chance exceeds once in a million.

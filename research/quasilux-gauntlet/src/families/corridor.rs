@@ -1,7 +1,7 @@
 //! A corridor with bends, the lamp at its far end.
 
 use crate::dice::Dice;
-use crate::room::{Parallelogram, Room, Surface};
+use crate::room::{Outside, Parallelogram, Room, SkyKind, Surface};
 use crate::shell::{Block, Opening, Side};
 use glam::DVec3;
 
@@ -17,6 +17,17 @@ struct Bend {
 
 /// Legs along x and y in turn, a corner between each two, open toward each other.
 pub(crate) fn corridor(dice: &mut Dice) -> Room {
+    bent(dice, false)
+}
+
+/// The same with the sky at the end of it.
+pub(crate) fn to_the_sky(dice: &mut Dice) -> Room {
+    let mut room = bent(dice, true);
+    room.outside = Some(Outside::sky(SkyKind::Overcast, dice.log("zenith cd/m2", 300.0, 3e4)));
+    room
+}
+
+fn bent(dice: &mut Dice, is_open: bool) -> Room {
     let mut room = Room::empty();
     let bends = dice.count("bends", 1, 3);
     let width = dice.draw("width m", 1.0, 2.5);
@@ -30,7 +41,7 @@ pub(crate) fn corridor(dice: &mut Dice) -> Room {
         let reach =
             if along_x { DVec3::new(length, width, 0.0) } else { DVec3::new(width, length, 0.0) };
         last = Block { low: at, high: at + reach + DVec3::Z * HEIGHT_M };
-        let open: Vec<Opening> = [leg > 0, leg < bends]
+        let open: Vec<Opening> = [leg > 0, leg < bends || is_open]
             .into_iter()
             .zip(ends)
             .filter(|(is_open, _)| *is_open)
@@ -43,6 +54,16 @@ pub(crate) fn corridor(dice: &mut Dice) -> Room {
             add_corner(&mut room, Bend { leg: last, low: from, width, along_x }, walls);
             at = if along_x { from + DVec3::Y * width } else { from + DVec3::X * width };
         }
+    }
+    if is_open {
+        let side = if bends.is_multiple_of(2) { Side::HighX } else { Side::HighY };
+        let [i, j] = if bends.is_multiple_of(2) { [1, 2] } else { [0, 2] };
+        let low = [last.low[i], last.low[j]];
+        let end = Opening { side, low, high: [last.high[i], last.high[j]] };
+        let plane = if bends.is_multiple_of(2) { last.high.x } else { last.high.y };
+        room.add_hints(last, [end.at(plane)]);
+        room.hint_shares = [0.6, 0.3];
+        return room;
     }
     let lamp = if bends.is_multiple_of(2) {
         DVec3::new(last.high.x - 0.6, 0.5 * (last.low.y + last.high.y), 2.0)
