@@ -15,7 +15,7 @@ use std::f64::consts::{FRAC_1_PI, PI, TAU};
 /// Steps of the table of `E`, at the cubes of even steps from 0 to 1.
 const STEPS: usize = 160;
 /// Midpoints of each of two coordinates behind a value of the table.
-const MIDPOINTS: u32 = 96;
+const MIDPOINTS: u32 = 112;
 /// Least share of directions that are drawn by the cosine, whatever the facets do.
 const LEAST_COSINE: f64 = 0.02;
 
@@ -124,7 +124,7 @@ impl Metal {
     }
 
     /// `E` on straight lines between the steps.
-    fn single(&self, cos: f64) -> f64 {
+    pub(crate) fn single(&self, cos: f64) -> f64 {
         let x = libm::cbrt(cos.clamp(0.0, 1.0)) * STEPS as f64;
         let step = (x as usize).min(STEPS - 1);
         let share = x - step as f64;
@@ -166,15 +166,20 @@ impl Metal {
         DVec3::new(self.alpha * m.x, self.alpha * m.y, m.z.max(1e-12)).normalize()
     }
 
-    /// `E` at a cosine: the mean of `G2 / G1` over visible normals.
+    /// `E` at a cosine: the mean of `G2 / G1` over visible normals. The first coordinate is
+    /// `1 - x^4`, as few normals lean far over and are those whose rays get lost.
     fn integrated(&self, cos: f64) -> f64 {
         let wo = DVec3::new(((1.0 - cos) * (1.0 + cos)).sqrt(), 0.0, cos);
         let middle = |i: u32| (f64::from(i) + 0.5) / f64::from(MIDPOINTS);
         let lambda = self.lambda(cos);
         let value = |i, j| {
-            let m = self.visible_normal(wo, [middle(i), middle(j)]);
+            let x = middle(i);
+            let m = self.visible_normal(wo, [1.0 - x * x * x * x, middle(j)]);
             let z = 2.0 * wo.dot(m) * m.z - wo.z;
-            if z <= 0.0 { 0.0 } else { (1.0 + lambda) / (1.0 + lambda + self.lambda(z.min(1.0))) }
+            if z <= 0.0 {
+                return 0.0;
+            }
+            4.0 * x * x * x * (1.0 + lambda) / (1.0 + lambda + self.lambda(z.min(1.0)))
         };
         let row = |i| (0..MIDPOINTS).map(|j| value(i, j)).sum::<f64>();
         (0..MIDPOINTS).map(row).sum::<f64>() / f64::from(MIDPOINTS * MIDPOINTS)

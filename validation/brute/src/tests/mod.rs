@@ -1,5 +1,9 @@
 //! Against closed forms.
 
+mod modes;
+mod sources;
+mod surfaces;
+
 use super::*;
 use glam::DVec3;
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
@@ -10,7 +14,7 @@ fn quad(corners: [DVec3; 4], surface: Surface, luminance_cd_m2: f64) -> [Triangl
 }
 
 fn grey(reflectance: f64) -> Surface {
-    Surface::Grey { reflectance, two_sided: true }
+    Surface::grey(reflectance)
 }
 
 /// A cube from the origin, its normals inward.
