@@ -75,8 +75,9 @@ const RENAMED: [[&str; 2]; 3] = [
     ["--checkpoint-every", "checkpoint_every_s"],
 ];
 /// The others, which have underscores instead of dashes.
-const OPTIONS: [&str; 10] = [
+const OPTIONS: [&str; 11] = [
     "--rel-tol",
+    "--unseen-tol",
     "--tolerance-on",
     "--confidence",
     "--samples",

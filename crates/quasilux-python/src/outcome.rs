@@ -1,6 +1,7 @@
 //! The results of a run as arrays and files.
 
 use crate::arrays::read_only;
+use crate::progress::unseen_lx;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use quasilux::embedded::{self, CliError, Finished, Project, Stopped};
@@ -103,6 +104,11 @@ impl Outcome {
         let lx = points().map(|point| or_nan(point.illuminance_lx.half_width));
         put("half_width_lx", lx.collect(), &shape)?;
         put("direct_lx", points().map(|point| or_nan(point.direct_lx)).collect(), &shape)?;
+        put("unseen_lx", unseen_lx(&self.finished.estimates, index), &shape)?;
+        let lx = points().map(|point| or_nan(point.unseen.merged_lx));
+        put("merged_lx", lx.collect(), &shape)?;
+        let radii_m = points().map(|point| or_nan(point.unseen.disc_radius_m));
+        put("disc_radius_m", radii_m.collect(), &shape)?;
         let positions_m = points().flat_map(|point| point.position_m.to_array());
         put("positions_m", positions_m.collect(), &vectors)?;
         let normals = points().flat_map(|point| point.normal.to_array());

@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use quasilux::embedded::{Event, Finished, Project};
 use quasilux_scene::{Sensor, SensorShape};
-use quasilux_transport::{Control, Estimates, Progress as Counts};
+use quasilux_transport::{Control, Estimates, Progress as Counts, SensorEstimates};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender};
 use std::time::{Duration, Instant};
@@ -46,6 +46,7 @@ struct SensorFigures {
     shape: Vec<usize>,
     illuminance_lx: Vec<f64>,
     half_width_lx: Vec<f64>,
+    unseen_lx: Vec<f64>,
 }
 
 /// Tells the caller's thread of a run.
@@ -127,6 +128,7 @@ impl SensorFigures {
             shape,
             illuminance_lx: intervals.iter().map(|interval| interval.value).collect(),
             half_width_lx: intervals.iter().map(|it| half_width(it.half_width)).collect(),
+            unseen_lx: unseen_lx(estimates, index),
         }
     }
 
@@ -135,6 +137,15 @@ impl SensorFigures {
         let points = self.illuminance_lx.iter().zip(&self.half_width_lx);
         let shares = points.map(|(lx, half_width)| half_width / lx).filter(|x| x.is_finite());
         shares.reduce(f64::max)
+    }
+}
+
+/// The bounds of a sensor's points; no numbers where the estimator has none.
+pub(crate) fn unseen_lx(estimates: &Estimates, sensor: usize) -> Vec<f64> {
+    let SensorEstimates { unseen, direct_lx, .. } = &estimates.sensors[sensor];
+    match unseen {
+        Some(unseen) => unseen.point_lx.clone(),
+        None => vec![f64::NAN; direct_lx.len()],
     }
 }
 
@@ -175,15 +186,24 @@ pub(crate) struct Progress {
     is_checkpoint: bool,
     illuminance_lx: Py<PyDict>,
     half_width_lx: Py<PyDict>,
+    unseen_lx: Py<PyDict>,
 }
 
 impl Progress {
     fn new(py: Python<'_>, standing: Standing, is_checkpoint: bool) -> PyResult<Self> {
         let Standing { counts, seconds, camera, sensors } = standing;
-        let (illuminance_lx, half_width_lx) = (PyDict::new(py), PyDict::new(py));
-        for SensorFigures { name, shape, illuminance_lx: lx, half_width_lx: widths } in sensors {
+        let [illuminance_lx, half_width_lx, unseen_lx] = [(); 3].map(|()| PyDict::new(py));
+        for SensorFigures {
+            name,
+            shape,
+            illuminance_lx: lx,
+            half_width_lx: widths,
+            unseen_lx: unseen,
+        } in sensors
+        {
             illuminance_lx.set_item(&name, read_only(py, lx, &shape))?;
             half_width_lx.set_item(&name, read_only(py, widths, &shape))?;
+            unseen_lx.set_item(&name, read_only(py, unseen, &shape))?;
         }
         Ok(Self {
             photons: counts.photons,
@@ -200,6 +220,7 @@ impl Progress {
             is_checkpoint,
             illuminance_lx: illuminance_lx.unbind(),
             half_width_lx: half_width_lx.unbind(),
+            unseen_lx: unseen_lx.unbind(),
         })
     }
 }

@@ -64,6 +64,8 @@ def test_arrays_have_the_shape_of_their_sensor(result: quasilux.Result) -> None:
         for array in (sensor.illuminance_lx, sensor.half_width_lx, sensor.direct_lx):
             assert array.shape == shape and array.dtype == np.float64
             assert not array.flags.writeable and array.flags.c_contiguous
+        for array in (sensor.unseen_lx, sensor.merged_lx, sensor.disc_radius_m):
+            assert array.shape == shape and array.dtype == np.float64
         assert sensor.replicates_lx.shape == (16, *shape)
         assert sensor.positions_m.shape == sensor.normals.shape == (*shape, 3)
         assert sensor.samples.shape == shape and sensor.samples.max() <= result.samples
@@ -117,6 +119,18 @@ def test_the_run_is_described(result: quasilux.Result, scene: quasilux.Scene) ->
     assert json.loads(result.to_json()) == document
     document["sensors"].clear()
     assert len(result.to_dict()["sensors"]) == 2
+
+
+def test_estimators_without_a_bound_say_nothing_of_what_is_unseen() -> None:
+    paths = quasilux.simulate(room(), samples=16, estimator="path", unseen_tol="off")
+    desk = paths["desk"]
+    assert np.isnan(desk.unseen_lx).all() and np.isnan(desk.merged_lx).all()
+    assert math.isnan(desk.average.unseen_lx) and math.isnan(desk.uniformity.unseen_lx)
+    assert paths.settings["unseen_tol"] == "off" and paths.cannot_see == ()
+    run = paths.to_dict()["run"]
+    assert run["unseen_confidence"] == 0.95 and run["cannot_see"] == []
+    photons = quasilux.simulate(room(), samples=16, estimator="photon")
+    assert len(photons.cannot_see) == 1 and photons.settings["unseen_tol"] == 0.05
 
 
 def test_values_that_are_unknown_are_not_numbers() -> None:

@@ -39,6 +39,8 @@ LONG: dict[str, Any] = {"rel_tol": 1e-6, "estimator": "path"}
     [
         ("cube", {"rel_tol": 0.05, "seed": 7}),
         ("cube", {"rel_tol": 0.03, "abs_tol_lx": 20.0, "confidence": 0.99, "samples": 256}),
+        ("cube", {"rel_tol": 0.03, "unseen_tol": "off", "samples": 64}),
+        ("cube", {"rel_tol": 0.03, "unseen_tol": 0.02, "samples": 64}),
         ("cube", {"sequence": "hammersley", "samples": 64, "estimator": "photon"}),
         ("diffuser", {"rel_tol": 0.01, "tolerance_on": "summary"}),
         ("cornell", {"samples": 2, "estimator": "path"}),
@@ -58,7 +60,8 @@ def test_results_are_those_of_the_command_line(
     assert comparable((out / "result.json").read_text()) == comparable(result.to_json())
     for sensor in result.values():
         table = np.genfromtxt(out / f"{sensor.name}.csv", delimiter=",", names=True)
-        for column in ("illuminance_lx", "half_width_lx", "direct_lx"):
+        lx = ("illuminance_lx", "half_width_lx", "direct_lx", "unseen_lx", "merged_lx")
+        for column in lx:
             ours = getattr(sensor, column).ravel()
             assert np.array_equal(ours, np.atleast_1d(table[column]), equal_nan=True)
     result.save(tmp_path / "ours")
@@ -98,6 +101,8 @@ FEW_IN_PROJECT = {"rel_tol": "5%", "seed": 1, "map_elements": 4194304}
         ({"rel_tol": float("nan")}, '^rel_tol is "nan"; expected a share'),
         ({"rel_tol": "much"}, '^rel_tol is "much"; expected a share'),
         ({"abs_tol_lx": 0.0}, "^abs_tol_lx is"),
+        ({"unseen_tol": "much"}, '^unseen_tol is "much"; expected .* or off'),
+        ({"unseen_tol": 2}, "^unseen_tol: 2 stands for 200 %"),
         ({"confidence": 1.0}, "^confidence is"),
         ({"samples": 0}, "^samples is"),
         ({"samples": 2**60}, "^samples is"),
@@ -185,6 +190,7 @@ def test_a_callback_hears_of_every_checkpoint() -> None:
     desk = result["desk"]
     assert np.array_equal(last.illuminance_lx["desk"], desk.illuminance_lx)
     assert np.array_equal(last.half_width_lx["desk"], desk.half_width_lx, equal_nan=True)
+    assert np.array_equal(last.unseen_lx["desk"], desk.unseen_lx, equal_nan=True)
     shares = desk.half_width_lx / desk.illuminance_lx
     assert last.largest_relative_half_width == np.nanmax(shares)
     others = [progress for progress in seen if not progress.is_checkpoint]

@@ -1,7 +1,7 @@
 //! One sensor as comma-separated values: a header with units, then one line a point.
 //!
 //! Fields are numbers, so none needs the quoting of RFC 4180; lines end in LF; a missing number is
-//! an empty field. Where only the sky shines, columns of the daylight factor and of its parts
+//! an empty field, as are `unseen_lx` and `merged_lx` of estimators without a bound. Where only the sky shines, columns of the daylight factor and of its parts
 //! follow, shares, each with its half-width.
 
 use crate::number::exact;
@@ -9,7 +9,8 @@ use crate::outside::DaylightColumn;
 use crate::{DaylightFactor, SensorReport};
 use std::fmt::Write;
 
-const COLUMNS: &str = "x_m,y_m,z_m,nx,ny,nz,illuminance_lx,half_width_lx,direct_lx";
+const COLUMNS: &str =
+    "x_m,y_m,z_m,nx,ny,nz,illuminance_lx,half_width_lx,direct_lx,unseen_lx,merged_lx";
 
 /// The points of a sensor as CSV; the lines of a grid begin with the indices `i` along u and `j`
 /// along v, `i` running fastest.
@@ -31,7 +32,13 @@ pub fn csv(sensor: &SensorReport) -> String {
             write!(text, "{},{},", index % columns, index / columns).expect("strings grow");
         }
         let place = point.position_m.to_array().into_iter().chain(point.normal.to_array());
-        let light = [point.illuminance_lx.value, point.illuminance_lx.half_width, point.direct_lx];
+        let light = [
+            point.illuminance_lx.value,
+            point.illuminance_lx.half_width,
+            point.direct_lx,
+            point.unseen.bound_lx,
+            point.unseen.merged_lx,
+        ];
         let daylight = point.daylight_factor.iter().flat_map(DaylightFactor::columns);
         let daylight = daylight.flat_map(|it| [it.figure.value, it.figure.half_width]);
         let light = light.into_iter().chain(daylight);
@@ -55,8 +62,11 @@ mod tests {
         let text = csv(sensor);
         let mut lines = text.lines();
         assert_eq!(lines.next(), Some(format!("i,j,{COLUMNS}").as_str()));
-        let rows: Vec<Vec<f64>> =
-            lines.map(|l| l.split(',').map(|f| f.parse().expect("a number")).collect()).collect();
+        let number = |field: &str| match field {
+            "" => f64::NAN,
+            _ => field.parse().expect("a number"),
+        };
+        let rows: Vec<Vec<f64>> = lines.map(|l| l.split(',').map(number).collect()).collect();
         assert_eq!(rows.len(), sensor.points.len());
         assert_eq!(rows[25][..2], [1.0, 1.0]);
         for (row, point) in rows.iter().zip(&sensor.points) {
@@ -66,6 +76,19 @@ mod tests {
             assert_eq!(Some(row[10]), point.direct_lx);
         }
         assert!(text.ends_with('\n') && !text.contains('\r'));
+    }
+
+    #[test]
+    fn what_samples_leave_open_has_columns() {
+        let text = csv(&example::with_unseen().sensors[0]);
+        let ends: Vec<&str> = text
+            .lines()
+            .skip(1)
+            .filter_map(|line| line.split_once(",80.0,"))
+            .map(|at| at.1)
+            .collect();
+        assert_eq!(ends, ["2.0,0.5"], "{text}");
+        assert!(text.ends_with(",0.0,0.02,0.0\n"), "{text}");
     }
 
     #[test]
@@ -79,18 +102,18 @@ mod tests {
         let text = csv(&report.sensors[0]);
         let [head, line] = [0, 1].map(|n| text.lines().nth(n).unwrap());
         assert!(head.ends_with(
-            ",direct_lx,daylight_factor,daylight_factor_half_width,sky_component,\
+            ",direct_lx,unseen_lx,merged_lx,daylight_factor,daylight_factor_half_width,sky_component,\
              sky_component_half_width,externally_reflected_component,\
              externally_reflected_component_half_width,internally_reflected_component,\
              internally_reflected_component_half_width"
         ));
-        assert!(line.ends_with(",80.0,0.875,,0.25,,0.125,,0.5,"), "{line}");
+        assert!(line.ends_with(",80.0,,,0.875,,0.25,,0.125,,0.5,"), "{line}");
     }
 
     #[test]
     fn single_points_have_no_indices_and_missing_numbers_are_empty() {
         let report = example::without_intervals();
         let text = csv(&report.sensors[0]);
-        assert_eq!(text, format!("{COLUMNS}\n0.0,0.0,0.5,0.0,0.0,1.0,100.0,,80.0\n"));
+        assert_eq!(text, format!("{COLUMNS}\n0.0,0.0,0.5,0.0,0.0,1.0,100.0,,80.0,,\n"));
     }
 }

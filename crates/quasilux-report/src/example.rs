@@ -5,7 +5,7 @@ use glam::DVec3;
 use quasilux_scene::{Camera, Grid, Quantity, Scene, Sensor, SensorPoint, SensorShape};
 use quasilux_transport::{
     CameraEstimates, Convergence, Decisions, DimensionHistogram, Dimensions, Estimates,
-    EstimatorKind, FluxBalance, Pixel, SensorEstimates, Settings,
+    EstimatorKind, FluxBalance, Pixel, SensorEstimates, Settings, UnseenLight,
 };
 
 /// A grid in the xy plane.
@@ -96,6 +96,31 @@ pub(crate) fn with_terms() -> Report {
     report
 }
 
+/// Points of 100, 500 and 0 lx of an estimator that bounds what it did not see: 2 lx, 20 lx and
+/// 0.02 lx, and 0.4 lx of the average. Half a lux of the first is blurred.
+pub(crate) fn with_unseen() -> Report {
+    let settings = Settings { estimator: EstimatorKind::Bidirectional, ..Settings::default() };
+    let (scene, estimates) = bounded();
+    Report::new(&scene, &settings, &estimates, RunFacts::default())
+}
+
+/// What [`with_unseen`] is made of.
+pub(crate) fn bounded() -> (Scene, Estimates) {
+    let point = SensorPoint { position: DVec3::ZERO, normal: DVec3::Z };
+    let shape = SensorShape::Points(vec![point; 3]);
+    let sensor = Sensor { name: "desk".into(), shape };
+    let (scene, mut estimates) =
+        scene_and_estimates(vec![(sensor, vec![vec![100.0, 500.0, 0.0]; 4])]);
+    estimates.sensors[0].unseen = Some(UnseenLight {
+        point_lx: vec![2.0, 20.0, 0.02],
+        average_lx: 0.4,
+        merged_lx: vec![0.5, 0.0, 0.0],
+        disc_radius_m: vec![Some(0.1), None, Some(0.1)],
+    });
+    estimates.cannot_see = ["lamp, glass body, point", "sun, mirror, point"].map(Into::into).into();
+    (scene, estimates)
+}
+
 /// A camera "view" alone, with the luminance of each pixel; half-widths are 0.5 cd/m2, and unknown
 /// without light.
 pub(crate) fn picture(resolution: [u32; 2], luminance_cd_m2: impl Fn(u32, u32) -> f64) -> Report {
@@ -180,6 +205,7 @@ fn scene_and_estimates(sensors: Vec<(Sensor, Vec<Vec<f64>>)>) -> (Scene, Estimat
         contradicted: vec![false; rows[0].len()],
         samples: vec![65_536; rows[0].len()],
         terms: Vec::new(),
+        unseen: None,
     });
     let estimates = Estimates {
         sensors: figures.collect(),
@@ -213,6 +239,7 @@ fn scene_and_estimates(sensors: Vec<(Sensor, Vec<Vec<f64>>)>) -> (Scene, Estimat
         unresolved_points: 0,
         relieved_points: 0,
         biased: false,
+        cannot_see: Vec::new(),
         warnings: Vec::new(),
     };
     let scene = Scene {

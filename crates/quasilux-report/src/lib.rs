@@ -21,6 +21,7 @@ pub mod picture;
 pub mod plan;
 pub mod report;
 pub mod table;
+mod unseen;
 
 pub use camera::{CameraFiles, CameraReport};
 pub use figure::Figure;
@@ -30,3 +31,4 @@ pub use plan::plan;
 pub use quasilux_drawing::picture::PlanMark;
 pub use report::{PointReport, Report, Run, RunFacts, SensorReport, Summary, TermReport};
 pub use table::Style;
+pub use unseen::{PointUnseen, SummaryUnseen};

@@ -7,6 +7,7 @@
 use crate::CameraReport;
 use crate::figure::{Figure, finite};
 use crate::outside::{DaylightFactor, Outside};
+use crate::unseen::{self, PointUnseen, SummaryUnseen};
 use glam::DVec3;
 use quasilux_inspection::Finding;
 use quasilux_scene::{Grid, Scene, SensorShape};
@@ -105,6 +106,8 @@ pub struct PointReport {
     pub illuminance_lx: Figure,
     /// The part of it that comes straight from the lights, in lx.
     pub direct_lx: Option<f64>,
+    /// What its samples leave open.
+    pub unseen: PointUnseen,
     /// The share of the light outside, where only the sky shines.
     pub daylight_factor: Option<DaylightFactor>,
     /// Indices used by each replicate for this point.
@@ -122,6 +125,8 @@ pub struct Summary {
     pub maximum_lx: Figure,
     /// Minimum over average.
     pub uniformity: Figure,
+    /// What the samples leave open; `None` of estimators without a bound.
+    pub unseen: Option<SummaryUnseen>,
 }
 
 /// How the results were made.
@@ -160,6 +165,8 @@ pub struct Run {
     pub tolerance_reached: bool,
     /// The same of the sensors alone.
     pub sensors_reached: bool,
+    /// Classes of light paths in the scene that the estimator cannot make.
+    pub cannot_see: Vec<String>,
     /// What surveys and pilots decided before the first sample.
     pub decisions: Decisions,
     /// Sensor points that bidirectional paths took over from what pilots selected.
@@ -199,6 +206,9 @@ impl Report {
             ));
         }
         warnings.extend(sensors.iter().filter_map(SensorReport::missing_figures));
+        for (sensor, SensorReport { name, .. }) in sensors.iter().enumerate() {
+            warnings.extend(unseen::warnings(name, estimates, sensor, settings));
+        }
         Self {
             sensors,
             cameras,
@@ -219,6 +229,7 @@ impl Report {
                 maintenance_factor: facts.maintenance_factor.unwrap_or(1.0),
                 tolerance_reached: estimates.tolerance_reached,
                 sensors_reached: estimates.sensors_reached,
+                cannot_see: estimates.cannot_see.clone(),
                 decisions: estimates.decisions.clone(),
                 relieved_points: estimates.relieved_points,
                 convergence: estimates.convergence,
@@ -264,7 +275,7 @@ impl SensorReport {
     fn new(scene: &Scene, estimates: &Estimates, index: usize) -> Self {
         let sensor = &scene.sensors[index];
         let intervals = estimates.point_intervals(index);
-        let SensorEstimates { direct_lx, samples, .. } = &estimates.sensors[index];
+        let SensorEstimates { direct_lx, samples, unseen, .. } = &estimates.sensors[index];
         let points = sensor
             .points()
             .into_iter()
@@ -274,6 +285,7 @@ impl SensorReport {
                 normal: point.normal,
                 illuminance_lx: intervals.get(i).map(|&x| x.into()).unwrap_or_default(),
                 direct_lx: direct_lx.get(i).and_then(|&x| finite(x)),
+                unseen: unseen.as_ref().map(|own| PointUnseen::new(own, i)).unwrap_or_default(),
                 daylight_factor: None,
                 samples: samples.get(i).copied().unwrap_or_default(),
             })
@@ -290,6 +302,7 @@ impl SensorReport {
                 minimum_lx: estimates.minimum(index).into(),
                 maximum_lx: estimates.maximum(index).into(),
                 uniformity: estimates.uniformity(index).into(),
+                unseen: SummaryUnseen::new(estimates, index),
             },
             terms: TermReport::all(estimates, index),
         }

@@ -4,12 +4,13 @@ mod convergence;
 mod explanation;
 mod flux;
 mod terms;
+mod unseen;
 
 pub use explanation::explanation;
 
 use crate::number::{FigureText, brief, count, exact, figure_text, plural};
 use crate::{CameraReport, Figure, Report, SensorReport, Summary};
-use quasilux_transport::{Settings, ToleranceOn};
+use quasilux_transport::{Settings, ToleranceOn, UnseenTolerance};
 use std::fmt::Write;
 use unicode_width::UnicodeWidthStr;
 
@@ -48,6 +49,12 @@ pub fn table(report: &Report, style: Style) -> String {
     let verdict = Verdict::new(report);
     let verdict = style.paint(verdict.emphasis, &verdict.text);
     writeln!(text, "\n{faint}{verdict}").expect("strings grow");
+    if let Some(line) = unseen::line(report) {
+        writeln!(text, "{}", style.paint(Emphasis::Faint, &line)).expect("strings grow");
+    }
+    if let Some(line) = unseen::cannot_see(report) {
+        writeln!(text, "{}", style.paint(Emphasis::Caution, &line)).expect("strings grow");
+    }
     if let Some(line) = convergence::convergence(report) {
         writeln!(text, "{}", style.paint(Emphasis::Faint, &line)).expect("strings grow");
     }
@@ -87,6 +94,9 @@ fn sensors(report: &Report, style: Style) -> String {
         Column::figures("maximum", " lx", figures(|s| s.maximum_lx)),
         Column::figures("uniformity", "", figures(|s| s.uniformity)),
     ];
+    if let Some(cells) = unseen::column(report) {
+        columns.insert(3, Column::left("unseen", cells));
+    }
     if !factors.is_empty() {
         columns.push(Column::figures("daylight factor", " %", factors.into_iter()));
     }
@@ -215,14 +225,21 @@ fn run_facts(report: &Report) -> String {
     )
 }
 
-/// The wanted tolerance in words.
-fn tolerance(settings: &Settings) -> String {
+/// The wanted tolerance in words, with that of bounds where there are any.
+fn tolerance(settings: &Settings, is_bounded: bool) -> String {
     let relative = format!("{} %", brief(100.0 * settings.rel_tol, 4));
     let absolute = format!("{} lx", brief(settings.abs_tol_lx, 4));
-    match (settings.rel_tol > 0.0, settings.abs_tol_lx > 0.0) {
+    let half_width = match (settings.rel_tol > 0.0, settings.abs_tol_lx > 0.0) {
         (true, true) => format!("{relative} or {absolute}"),
         (false, true) => absolute,
         _ => relative,
+    };
+    match settings.unseen_tol {
+        UnseenTolerance::Share(share) if is_bounded => {
+            let share = share.max(settings.rel_tol);
+            format!("{half_width} and {} % unseen", brief(100.0 * share, 4))
+        }
+        _ => half_width,
     }
 }
 
@@ -251,7 +268,7 @@ impl Verdict {
 
     fn of_sensors(report: &Report) -> Self {
         let settings = &report.run.settings;
-        let wanted = tolerance(settings);
+        let wanted = tolerance(settings, unseen::is_bounded(report));
         let at = match settings.tolerance_on {
             ToleranceOn::Points => "at every point",
             ToleranceOn::Summary => "by every average",

@@ -65,7 +65,7 @@ pub use run::memory::MemoryNeed;
 pub use run::parts::{MergeError, decide, merge, trace_part};
 pub use run::simulate::{is_over, resume, simulate, simulate_with_workers};
 pub use run::trial;
-pub use settings::{EstimatorKind, Reconstruction, Settings, Switch, ToleranceOn};
+pub use settings::{EstimatorKind, Reconstruction, Settings, Switch, ToleranceOn, UnseenTolerance};
 pub use stats::convergence;
 pub use stats::decisions::Decisions;
 pub use stats::estimates::{
@@ -74,6 +74,7 @@ pub use stats::estimates::{
 pub use stats::interval::{self, Interval};
 pub use stats::observer::{self, Control, Observer, PictureProgress, Progress, Snapshot};
 pub use stats::picture::{CameraEstimates, Pixel};
+pub use stats::unseen::{self, UnseenLight};
 pub use stats::workers::{Received, Workers};
 
 /// Tests the example of the README.

@@ -1,7 +1,8 @@
 //! What a simulation is asked to do.
 
 use quasilux_sampling::{Randomization, Sequence};
-use serde::{Deserialize, Serialize};
+use serde::de::Error;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 /// How illuminance is estimated: a closed set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -100,6 +101,55 @@ impl ToleranceOn {
     }
 }
 
+/// How much light that no sample met a value may be done with: a closed set.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum UnseenTolerance {
+    /// At most this share of the value, or `rel_tol` of it where that is larger.
+    Share(f64),
+    /// Any: the bound is reported, and not waited for.
+    Off,
+}
+
+impl UnseenTolerance {
+    /// The name of [`Self::Off`] in project files, on the command line and in results.
+    pub const OFF: &str = "off";
+}
+
+impl Default for UnseenTolerance {
+    fn default() -> Self {
+        Self::Share(0.05)
+    }
+}
+
+/// A number or a name, as users write it.
+impl Serialize for UnseenTolerance {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Share(share) => share.serialize(serializer),
+            Self::Off => Self::OFF.serialize(serializer),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for UnseenTolerance {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        #[derive(Deserialize)]
+        #[serde(untagged)]
+        enum Either {
+            Share(f64),
+            Name(String),
+        }
+        match Either::deserialize(deserializer)? {
+            Either::Share(share) => Ok(Self::Share(share)),
+            Either::Name(name) if name == Self::OFF => Ok(Self::Off),
+            Either::Name(name) => Err(D::Error::custom(format_args!(
+                "unknown tolerance \"{name}\"; expected a share or \"{}\"",
+                Self::OFF
+            ))),
+        }
+    }
+}
+
 /// What the photons in an element of the illumination map say about its illuminance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -146,7 +196,9 @@ pub struct Settings {
     /// Half-width in lx that is enough whatever the value; 0 where none is. Without either
     /// tolerance nothing but a limit ends the run.
     pub abs_tol_lx: f64,
-    /// What has to reach the tolerance.
+    /// How much light that no sample met is little enough, of estimators that bound it.
+    pub unseen_tol: UnseenTolerance,
+    /// What has to reach the tolerances.
     pub tolerance_on: ToleranceOn,
     /// Confidence level of all intervals, in (0, 1).
     pub confidence: f64,
@@ -232,6 +284,18 @@ impl Settings {
         (self.rel_tol * value_lx.abs()).max(self.abs_tol_lx)
     }
 
+    /// The light that no sample met, in lx, that is little enough beside this value; `None` where
+    /// it is not waited for.
+    #[must_use]
+    pub fn unseen_tolerance_lx(&self, value_lx: f64) -> Option<f64> {
+        match self.unseen_tol {
+            UnseenTolerance::Share(share) => {
+                Some((share.max(self.rel_tol) * value_lx.abs()).max(self.abs_tol_lx))
+            }
+            UnseenTolerance::Off => None,
+        }
+    }
+
     /// The number of replicates that differ: one where nothing is randomised.
     #[must_use]
     pub fn effective_replicates(&self) -> u32 {
@@ -250,6 +314,7 @@ impl Default for Settings {
             randomization: Randomization::Owen,
             rel_tol: 0.01,
             abs_tol_lx: 0.0,
+            unseen_tol: UnseenTolerance::default(),
             tolerance_on: ToleranceOn::Points,
             confidence: 0.95,
             replicates: 16,
@@ -311,6 +376,7 @@ mod tests {
             seed: u64::MAX,
             rel_tol: 0.1 + 0.2,
             abs_tol_lx: 0.7,
+            unseen_tol: UnseenTolerance::Off,
             tolerance_on: ToleranceOn::Summary,
             confidence: 0.99,
             max_rays: Some(1 << 60),

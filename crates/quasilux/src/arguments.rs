@@ -26,10 +26,10 @@ use clap::{Args, CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
 use quasilux_experiments::{EXPERIMENTS, Experiment};
 use quasilux_sampling::Sequence;
-use quasilux_transport::{EstimatorKind, ToleranceOn};
+use quasilux_transport::{EstimatorKind, ToleranceOn, UnseenTolerance};
 use std::path::PathBuf;
 use std::time::Duration;
-use values::{duration, illuminance, level, one_of, share, whole};
+use values::{duration, illuminance, level, one_of, share, unseen_tolerance, whole};
 
 /// How many lux, and how sure: a lighting simulator.
 #[derive(Debug, Parser)]
@@ -97,7 +97,7 @@ pub(crate) struct RunArguments {
     pub(crate) simulation: SimulationArguments,
     /// Do what a plan says, in one part: the same bits as its parts put together
     #[arg(long, value_name = "FILE", conflicts_with_all = [
-        "rel_tol", "abs_tol", "tolerance_on", "confidence", "time", "samples", "rays",
+        "rel_tol", "abs_tol", "unseen_tol", "tolerance_on", "confidence", "time", "samples", "rays",
         "estimator", "sequence",
         "seed", "checkpoint", "explain",
     ])]
@@ -149,6 +149,11 @@ pub(crate) struct SimulationArguments {
     /// Half-width in lx that is enough whatever the value, like 0.5 or 0.5lx
     #[arg(long, value_name = "LUX", value_parser = illuminance)]
     pub(crate) abs_tol: Option<f64>,
+    /// Light that no sample met over the value, like 5% or 0.05, that is little enough, of
+    /// estimators that bound it; rel-tol where that is larger; off does not wait for it
+    /// [default: the project's, or else 5%]
+    #[arg(long, value_name = "SHARE", value_parser = unseen_tolerance)]
+    pub(crate) unseen_tol: Option<UnseenTolerance>,
     /// What has to reach the tolerance: every sensor point, or the average of every sensor
     #[arg(long, value_name = "NAME", value_parser = one_of(&ToleranceOn::ALL, ToleranceOn::name))]
     pub(crate) tolerance_on: Option<String>,

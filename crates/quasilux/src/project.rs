@@ -9,7 +9,9 @@ use crate::names::{self, take_from_project as take};
 use crate::source::{Identified, Source};
 use quasilux_sampling::{Randomization, Sequence};
 use quasilux_scene::{Environment, LoadError, Loaded, SimulationSection, SkyFacts, Spanned};
-use quasilux_transport::{EstimatorKind, Reconstruction, Settings, Switch, ToleranceOn};
+use quasilux_transport::{
+    EstimatorKind, Reconstruction, Settings, Switch, ToleranceOn, UnseenTolerance,
+};
 use std::path::Path;
 
 /// A loaded project, and what messages call its file.
@@ -185,6 +187,9 @@ fn values_in_section(settings: &mut Settings, section: &SimulationSection) {
     }
     take(&mut settings.rel_tol, &section.rel_tol);
     take(&mut settings.abs_tol_lx, &section.abs_tol_lx);
+    if let Some(given) = &section.unseen_tol {
+        settings.unseen_tol = given.value.map_or(UnseenTolerance::Off, UnseenTolerance::Share);
+    }
     take(&mut settings.confidence, &section.confidence);
     take(&mut settings.map_elements, &section.map_elements);
     take(&mut settings.map_adaptive, &section.map_adaptive);
@@ -218,6 +223,7 @@ fn take_arguments(
     }
     settings.rel_tol = arguments.rel_tol.unwrap_or(settings.rel_tol);
     settings.abs_tol_lx = arguments.abs_tol.unwrap_or(settings.abs_tol_lx);
+    settings.unseen_tol = arguments.unseen_tol.unwrap_or(settings.unseen_tol);
     settings.confidence = arguments.confidence.unwrap_or(settings.confidence);
     settings.seed = arguments.seed.unwrap_or(settings.seed);
     settings.max_samples = arguments.samples;

@@ -22,6 +22,8 @@ class Figure:
     half_width : float
         Half the width of the interval, in the unit of the value; not a number where there is no
         interval.
+    unseen_lx : float
+        Light in lx at most that no sample met; not a number where nothing bounds it.
 
     Examples
     --------
@@ -34,12 +36,12 @@ class Figure:
 
     value: float
     half_width: float
+    unseen_lx: float = math.nan
 
     @classmethod
     def _from_entry(cls, entry: dict[str, Any]) -> Figure:
-        value, half_width = entry["value"], entry["half_width"]
-        nan = math.nan
-        return cls(nan if value is None else value, nan if half_width is None else half_width)
+        known = (entry["value"], entry["half_width"], entry.get("unseen_lx"))
+        return cls(*(math.nan if x is None else x for x in known))
 
     def __float__(self) -> float:
         return self.value

@@ -139,8 +139,9 @@ class Progress:
     is_checkpoint : bool
         Whether this is a checkpoint: if so, the run waits for the answer, and can end with the
         values of now.
-    illuminance_lx, half_width_lx : dict of str to ndarray
-        At a checkpoint, values and half-widths of each sensor in lx, as in its result; else empty.
+    illuminance_lx, half_width_lx, unseen_lx : dict of str to ndarray
+        At a checkpoint, values, half-widths and bounds on unseen light of each sensor in lx, as in
+        its result; else empty.
     """
 
     @property
@@ -171,6 +172,8 @@ class Progress:
     def illuminance_lx(self) -> dict[str, NDArray[np.float64]]: ...
     @property
     def half_width_lx(self) -> dict[str, NDArray[np.float64]]: ...
+    @property
+    def unseen_lx(self) -> dict[str, NDArray[np.float64]]: ...
 
 @final
 class Outcome:

@@ -30,6 +30,7 @@ class Options:
         *,
         rel_tol: float | str | None,
         abs_tol_lx: float | None,
+        unseen_tol: float | str | None,
         tolerance_on: str | None,
         confidence: float | str | None,
         samples: int | None,
@@ -42,6 +43,7 @@ class Options:
         """Add what every run may be asked for, whoever traces it."""
         self.share("rel-tol", "rel_tol", rel_tol)
         self.number("abs-tol", "abs_tol_lx", abs_tol_lx)
+        self.share("unseen-tol", "unseen_tol", unseen_tol)
         self.name("tolerance-on", "tolerance_on", tolerance_on)
         self.share("confidence", "confidence", confidence)
         self.whole("samples", "samples", samples)

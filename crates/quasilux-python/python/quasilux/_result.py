@@ -107,6 +107,14 @@ class Result(Mapping[str, SensorResult]):
         return self._document["biased"]
 
     @property
+    def cannot_see(self) -> tuple[str, ...]:
+        """Classes of light paths in the scene that the estimator cannot make.
+
+        Each has a light first and then what it meets, as in ``"lamp, mirror, point"``.
+        """
+        return tuple(self._document["run"]["cannot_see"])
+
+    @property
     def samples(self) -> int:
         """Indices that each replicate used: photons, and paths for each sensor point."""
         return self._document["run"]["samples"]
@@ -167,7 +175,7 @@ class Result(Mapping[str, SensorResult]):
         -------
         xarray.Dataset
             For a sensor ``desk`` the variables ``desk`` (illuminance), ``desk_half_width``,
-            ``desk_direct`` and ``desk_replicates``, in lx; over ``desk_v`` and ``desk_u``, lengths
+            ``desk_unseen``, ``desk_direct``, ``desk_merged`` and ``desk_replicates``, in lx; over ``desk_v`` and ``desk_u``, lengths
             in m along the edges of a grid, or over ``desk_point``; with ``desk_x``, ``desk_y`` and
             ``desk_z``, positions in m.
 
@@ -192,7 +200,7 @@ class Result(Mapping[str, SensorResult]):
         pandas.DataFrame
             One row a point: ``sensor``; ``i`` and ``j``, indices along u and v in a grid;
             ``x_m``, ``y_m``, ``z_m``; ``nx``, ``ny``, ``nz``; ``illuminance_lx``,
-            ``half_width_lx``, ``direct_lx``; ``samples``.
+            ``half_width_lx``, ``unseen_lx``, ``direct_lx``, ``merged_lx``; ``samples``.
 
         Raises
         ------

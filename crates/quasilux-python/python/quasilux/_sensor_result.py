@@ -115,6 +115,27 @@ class SensorResult:
         return self._arrays["half_width_lx"]
 
     @property
+    def unseen_lx(self) -> Floats:
+        """Light in lx at most that no sample met, with 95 %, shape (v, u) or (n,).
+
+        Infinite where nothing is known; not a number where the estimator has no bound.
+        """
+        return self._arrays["unseen_lx"]
+
+    @property
+    def merged_lx(self) -> Floats:
+        """What of the illuminance is known as a mean over a disc, in lx, shape (v, u) or (n,).
+
+        Not a number where the estimator has no discs.
+        """
+        return self._arrays["merged_lx"]
+
+    @property
+    def disc_radius_m(self) -> Floats:
+        """Radius of that disc in m, shape (v, u) or (n,); not a number where there is none."""
+        return self._arrays["disc_radius_m"]
+
+    @property
     def replicates_lx(self) -> Floats:
         """Illuminance of each replicate in lx, shape (r, v, u) or (r, n).
 
@@ -171,9 +192,9 @@ class SensorResult:
         Returns
         -------
         xarray.Dataset
-            ``illuminance``, ``half_width``, ``direct`` and ``replicates``, in lx; over ``v`` and
-            ``u``, lengths in m along the edges of a grid, or over ``point``; with ``x``, ``y`` and
-            ``z``, positions in m.
+            ``illuminance``, ``half_width``, ``unseen``, ``direct``, ``merged`` and ``replicates``,
+            in lx; over ``v`` and ``u``, lengths in m along the edges of a grid, or over ``point``;
+            with ``x``, ``y`` and ``z``, positions in m.
 
         Raises
         ------

@@ -26,6 +26,7 @@ def simulate(
     *,
     rel_tol: float | str | None = None,
     abs_tol_lx: float | None = None,
+    unseen_tol: float | str | None = None,
     tolerance_on: Literal["points", "summary"] | None = None,
     confidence: float | str | None = None,
     samples: int | None = None,
@@ -54,6 +55,9 @@ def simulate(
         Wanted half-width of each interval over its value, as in 0.01 or ``"1%"``.
     abs_tol_lx : float, optional
         Half-width in lx that is enough whatever the value.
+    unseen_tol : float or str, optional
+        Light that no sample met over the value, as in 0.05 or ``"5%"``, that is little enough, of
+        estimators that bound it; ``"off"`` does not wait for it. No less than `rel_tol` is asked.
     tolerance_on : {"points", "summary"}, optional
         What has to reach the tolerance: every sensor point, or the average of every sensor.
     confidence : float or str, optional
@@ -119,6 +123,7 @@ def simulate(
     options.run(
         rel_tol=rel_tol,
         abs_tol_lx=abs_tol_lx,
+        unseen_tol=unseen_tol,
         tolerance_on=tolerance_on,
         confidence=confidence,
         samples=samples,

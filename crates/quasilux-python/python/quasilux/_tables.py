@@ -20,7 +20,9 @@ if TYPE_CHECKING:
 _VARIABLES = {
     "": ("illuminance_lx", "illuminance"),
     "half_width": ("half_width_lx", "half the width of the confidence interval"),
+    "unseen": ("unseen_lx", "light at most that no sample met"),
     "direct": ("direct_lx", "direct illuminance"),
+    "merged": ("merged_lx", "illuminance that is known as a mean over a disc"),
     "replicates": ("replicates_lx", "illuminance of each replicate"),
 }
 
@@ -110,6 +112,7 @@ def _columns(sensor: SensorResult, pandas: Any) -> dict[str, Any]:
         (("nx", "ny", "nz"), sensor.normals),
     ):
         columns.update(zip(names, vectors.reshape(-1, 3).T, strict=True))
-    for name in ("illuminance_lx", "half_width_lx", "direct_lx", "samples"):
+    of_points = ("illuminance_lx", "half_width_lx", "unseen_lx", "direct_lx", "merged_lx")
+    for name in (*of_points, "samples"):
         columns[name] = getattr(sensor, name).ravel()
     return columns

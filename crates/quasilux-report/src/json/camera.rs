@@ -36,3 +36,28 @@ impl<'a> CameraEntry<'a> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::json;
+    use crate::example;
+    use serde_json::Value;
+
+    #[test]
+    fn cameras_have_files_and_figures() {
+        let report = example::picture([4, 2], |x, _| if x == 0 { 20.0 } else { 4.0 });
+        let document: Value = serde_json::from_str(&json(&report)).expect("valid JSON");
+        let camera = serde_json::json!({
+            "name": "view",
+            "resolution": [4, 2],
+            "samples": 16,
+            "files": ["view.exr", "view.png", "view-falsecolour.png"],
+            "mean_luminance_cd_m2": {"value": 8.0, "half_width": 0.0},
+            "maximum_luminance_cd_m2": 20.0,
+            "mean_half_width_cd_m2": 0.5,
+            "relative_half_width": 0.0625,
+            "tolerance_reached": true,
+        });
+        assert_eq!(document["cameras"], serde_json::json!([camera]));
+    }
+}

@@ -11,7 +11,12 @@
 //! limits: a run that was stopped at some number of samples writes what one that was asked for this
 //! number writes. `replicates` counts those that differ. `seconds` are those of the whole run,
 //! `earlier` says how many of them it took before it was resumed, and `maintenance_factor` what
-//! all lights were dimmed by. Then `decisions`, what pilots made of the
+//! all lights were dimmed by. Beside each value stands what its samples leave open, `null` of
+//! estimators without a bound and where nothing is known: `unseen_lx`, the light at most that no
+//! sample met, with `unseen_confidence`, `merged_lx`, the part of the value that is known as a mean
+//! over a disc of `disc_radius_m` around the point; `unseen_tol` is a share or "off", and
+//! `cannot_see` has the classes of light paths that the estimator cannot make.
+//! Then `decisions`, what pilots made of the
 //! settings (what they `selected` and why, how many points bidirectional paths took over from that
 //! (`relieved_points`), photons connected for each path (`connected_photons`), whether photons
 //! follow `importance` and leave lit places, sides of elements of the map that paths end on,
@@ -34,6 +39,7 @@ mod finding;
 mod layout;
 mod prediction;
 mod terms;
+mod unseen;
 
 use crate::outside::DaylightColumn;
 use crate::{DaylightFactor, Figure, Outside, Report, Run, SensorReport};
@@ -43,10 +49,12 @@ use camera::CameraEntry;
 use explanation::ExplanationEntry;
 use layout::Layout;
 use prediction::PredictionEntry;
+use quasilux_transport::unseen::UNSEEN_CONFIDENCE;
 use quasilux_transport::{Decisions, DimensionHistogram, Dimensions, EstimatorKind, Settings};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 use terms::TermEntry;
+use unseen::{BoundedEntry, UnseenEntry};
 
 /// Name and version of the document's format.
 pub const FORMAT: &str = "quasilux-result/1";
@@ -104,6 +112,8 @@ struct PointEntry {
     half_width_lx: Option<f64>,
     direct_lx: Option<f64>,
     #[serde(flatten)]
+    unseen: UnseenEntry,
+    #[serde(flatten)]
     daylight: Map<String, Value>,
     #[serde(skip_serializing_if = "Option::is_none")]
     samples: Option<u64>,
@@ -113,9 +123,9 @@ struct PointEntry {
 
 #[derive(Serialize)]
 struct SummaryEntry {
-    average_lx: FigureEntry,
-    minimum_lx: FigureEntry,
-    maximum_lx: FigureEntry,
+    average_lx: BoundedEntry,
+    minimum_lx: BoundedEntry,
+    maximum_lx: BoundedEntry,
     uniformity: FigureEntry,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     average_terms_lx: Vec<TermEntry>,
@@ -143,6 +153,8 @@ struct RunEntry<'a> {
     threads: usize,
     maintenance_factor: f64,
     tolerance_reached: bool,
+    unseen_confidence: f64,
+    cannot_see: &'a [String],
     prediction: PredictionEntry,
     decisions: DecisionsEntry,
     mean_dimension: MeanDimensionEntry,
@@ -287,6 +299,7 @@ impl PointEntry {
             illuminance_lx: point.illuminance_lx.value,
             half_width_lx: point.illuminance_lx.half_width,
             direct_lx: point.direct_lx,
+            unseen: UnseenEntry::new(point.unseen),
             daylight: point.daylight_factor.map(daylight).unwrap_or_default(),
             samples: Some(point.samples).filter(|samples| *samples != report.run.samples),
             terms_lx: TermEntry::all(&sensor.terms, |term| term.points_lx[number]),
@@ -320,12 +333,14 @@ impl FigureEntry {
 impl SummaryEntry {
     fn new(sensor: &SensorReport) -> Self {
         let summary = &sensor.summary;
-        let entry = FigureEntry::new;
+        let unseen = summary.unseen.unwrap_or_default();
+        let entry =
+            |figure, unseen_lx| BoundedEntry { figure: FigureEntry::new(figure), unseen_lx };
         Self {
-            average_lx: entry(summary.average_lx),
-            minimum_lx: entry(summary.minimum_lx),
-            maximum_lx: entry(summary.maximum_lx),
-            uniformity: entry(summary.uniformity),
+            average_lx: entry(summary.average_lx, unseen.average_lx),
+            minimum_lx: entry(summary.minimum_lx, unseen.minimum_lx),
+            maximum_lx: entry(summary.maximum_lx, unseen.maximum_lx),
+            uniformity: FigureEntry::new(summary.uniformity),
             average_terms_lx: TermEntry::all(&sensor.terms, |term| term.average_lx),
         }
     }
@@ -350,6 +365,8 @@ impl<'a> RunEntry<'a> {
             threads: run.threads,
             maintenance_factor: run.maintenance_factor,
             tolerance_reached: run.tolerance_reached,
+            unseen_confidence: UNSEEN_CONFIDENCE,
+            cannot_see: &run.cannot_see,
             prediction: PredictionEntry::new(run),
             decisions: DecisionsEntry::new(run, has_sensors),
             mean_dimension: MeanDimensionEntry {
@@ -441,24 +458,6 @@ mod tests {
         assert_eq!(document["run"]["dimension_counts"], counts);
         assert_eq!(document["run"]["max_bounces"], Value::Null);
         assert_eq!(document["warnings"], serde_json::json!(["a \"quoted\" warning"]));
-    }
-
-    #[test]
-    fn cameras_have_files_and_figures() {
-        let report = example::picture([4, 2], |x, _| if x == 0 { 20.0 } else { 4.0 });
-        let document: Value = serde_json::from_str(&json(&report)).expect("valid JSON");
-        let camera = serde_json::json!({
-            "name": "view",
-            "resolution": [4, 2],
-            "samples": 16,
-            "files": ["view.exr", "view.png", "view-falsecolour.png"],
-            "mean_luminance_cd_m2": {"value": 8.0, "half_width": 0.0},
-            "maximum_luminance_cd_m2": 20.0,
-            "mean_half_width_cd_m2": 0.5,
-            "relative_half_width": 0.0625,
-            "tolerance_reached": true,
-        });
-        assert_eq!(document["cameras"], serde_json::json!([camera]));
     }
 
     #[test]

@@ -8,12 +8,13 @@ use super::renamed::RENAMED_KEYS;
 use crate::{LoadError, Spanned};
 use std::ops::RangeInclusive;
 
-const KEYS: [&str; 21] = [
+const KEYS: [&str; 22] = [
     "estimator",
     "sequence",
     "randomization",
     "rel_tol",
     "abs_tol",
+    "unseen_tol",
     "tolerance_on",
     "confidence",
     "replicates",
@@ -62,6 +63,8 @@ pub struct SimulationSection {
     pub rel_tol: Option<Spanned<f64>>,
     /// Half-width in lx that is enough, above 0.
     pub abs_tol_lx: Option<Spanned<f64>>,
+    /// Wanted bound on unseen light over value, as `rel_tol`; the inner `None` is `"off"`.
+    pub unseen_tol: Option<Spanned<Option<f64>>>,
     /// Name of what has to reach the tolerance.
     pub tolerance_on: Option<Spanned<String>>,
     /// Confidence level in (0, 1).
@@ -132,6 +135,7 @@ pub(super) fn read(file: &str, root: &Section<'_>) -> Result<SimulationSection, 
         randomization: name("randomization")?,
         rel_tol: spanned(&section, "rel_tol", |value| tolerance(&value))?,
         abs_tol_lx: number("abs_tol", "an illuminance in lx above 0", |x| x > 0.0)?,
+        unseen_tol: spanned(&section, "unseen_tol", |value| unseen_tolerance(&value))?,
         tolerance_on: name("tolerance_on")?,
         confidence: number("confidence", "a share between 0 and 1, such as 0.95", |x| {
             x > 0.0 && x < 1.0
@@ -173,6 +177,20 @@ fn integer<'a>(
 /// A share as a number, or with a percent sign as text.
 pub(super) fn tolerance(value: &Value<'_>) -> Result<f64, LoadError> {
     let expected = "a share above 0, at most 0.5, such as 0.01, or percent, such as \"1%\"";
+    share(value, "rel_tol", expected)
+}
+
+/// The same; `None` where it is off.
+fn unseen_tolerance(value: &Value<'_>) -> Result<Option<f64>, LoadError> {
+    let expected =
+        "a share above 0, at most 0.5, such as 0.05, or percent, such as \"5%\", or \"off\"";
+    if value.is_string() && value.string(expected)? == "off" {
+        return Ok(None);
+    }
+    share(value, "unseen_tol", expected).map(Some)
+}
+
+fn share(value: &Value<'_>, key: &str, expected: &str) -> Result<f64, LoadError> {
     if value.is_string() {
         let percent = value.string(expected)?.strip_suffix('%');
         return percent
@@ -184,7 +202,7 @@ pub(super) fn tolerance(value: &Value<'_>) -> Result<f64, LoadError> {
     let share = value.number(expected, |x| x > 0.0 && x <= 100.0)?;
     match doubt_of_tolerance(share) {
         None => Ok(share),
-        Some(doubt) => Err(value.error(format!("\"rel_tol\": {doubt}"))),
+        Some(doubt) => Err(value.error(format!("\"{key}\": {doubt}"))),
     }
 }
 

@@ -151,7 +151,7 @@ fn simulation_values_keep_their_places() {
            map_elements = 5\nmap_adaptive = false\nmap_reconstruction = \"linear\"\n\
            map_photons = 9\nmap_dimensions = 7\nimage_depth = 3\n\
            importance = \"on\"\nconnections = \"off\"\nfirst_shot = \"off\"\n\
-           abs_tol = 0.5\ntolerance_on = \"summary\"\n";
+           abs_tol = 0.5\nunseen_tol = 0.1\ntolerance_on = \"summary\"\n";
     let simulation = load_text(&project, &MapFiles::room()).unwrap().simulation;
     assert_eq!(simulation.rel_tol.as_ref().map(|v| (v.value, v.place.line)), Some((0.02, 18)));
     assert_eq!(simulation.confidence.as_ref().map(|v| v.value), Some(0.9));
@@ -169,6 +169,7 @@ fn simulation_values_keep_their_places() {
     assert_eq!(simulation.importance.as_ref().map(|v| &*v.value), Some("on"));
     assert_eq!(simulation.connections.as_ref().map(|v| &*v.value), Some("off"));
     assert_eq!(simulation.abs_tol_lx.as_ref().map(|v| v.value), Some(0.5));
+    assert_eq!(simulation.unseen_tol.as_ref().map(|v| v.value), Some(Some(0.1)));
     assert_eq!(simulation.tolerance_on.as_ref().map(|v| &*v.value), Some("summary"));
     assert_eq!(simulation.first_shot.as_ref().map(|v| &*v.value), Some("off"));
     assert_eq!(simulation.sequence, None);
@@ -184,6 +185,20 @@ fn simulation_values_keep_their_places() {
     let project = project.replace("\"unlimited\"", "3");
     let simulation = load_text(&project, &MapFiles::room()).unwrap().simulation;
     assert_eq!(simulation.max_bounces.map(|v| v.value), Some(Some(3)));
+    let unseen = |text: &str| {
+        load_text(
+            &project.replace("unseen_tol = 0.1", &format!("unseen_tol = {text}")),
+            &MapFiles::room(),
+        )
+    };
+    for (text, read) in [("\"off\"", None), ("\"5%\"", Some(0.05))] {
+        let simulation = unseen(text).unwrap().simulation;
+        assert_eq!(simulation.unseen_tol.map(|v| v.value), Some(read));
+    }
+    for (text, told) in [("\"no\"", "or \"off\""), ("5", "\"unseen_tol\": 5 stands for 500 %")] {
+        let error = unseen(text).unwrap_err().to_string();
+        assert!(error.contains(told), "{error}");
+    }
 }
 
 #[test]

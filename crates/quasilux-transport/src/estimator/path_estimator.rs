@@ -400,6 +400,7 @@ impl<S: Spectrum> Estimator for PathEstimator<'_, S> {
             contradicted: vec![false; self.targets.len()],
             samples: (0..self.targets.len()).map(|target| self.samples_of(target)).collect(),
             terms: self.terms(),
+            unseen: None,
         };
         let of_paths = cutoff::warning(work.endless, "paths", "values");
         let warnings =

@@ -161,7 +161,16 @@ impl<S: Spectrum> PhotonEstimator<'_, S> {
         let samples = vec![self.samples; direct_lx.len()];
         let missed = vec![false; direct_lx.len()];
         let contradicted = missed.clone();
-        SensorEstimates { replicate_lx, direct_lx, resolved, missed, contradicted, samples, terms }
+        SensorEstimates {
+            replicate_lx,
+            direct_lx,
+            resolved,
+            missed,
+            contradicted,
+            samples,
+            terms,
+            unseen: None,
+        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! Whether settings make sense for a scene, and what a reader of the results must know.
 
-use crate::settings::{EstimatorKind, Settings, Switch};
+use crate::settings::{EstimatorKind, Settings, Switch, UnseenTolerance};
 use quasilux_scene::{Quantity, Scene, SensorShape};
 
 /// Settings that cannot work for this scene.
@@ -109,6 +109,11 @@ fn check_ranges(settings: &Settings) -> Result<(), CheckError> {
     let confidence = settings.confidence;
     expect("rel_tol", is_tolerance(settings.rel_tol), "a share of at least 0")?;
     expect("abs_tol_lx", is_tolerance(settings.abs_tol_lx), "an illuminance of at least 0")?;
+    let is_share = match settings.unseen_tol {
+        UnseenTolerance::Share(share) => is_tolerance(share),
+        UnseenTolerance::Off => true,
+    };
+    expect("unseen_tol", is_share, "a share of at least 0")?;
     expect("confidence", confidence > 0.0 && confidence < 1.0, "a share between 0 and 1")?;
     expect("replicates", settings.replicates > 0, at_least_1)?;
     expect("max_samples", settings.max_samples != Some(0), at_least_1)?;

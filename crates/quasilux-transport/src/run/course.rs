@@ -82,6 +82,7 @@ fn has_shape(estimates: &Estimates, scene: &Scene, settings: &Settings) -> bool 
             contradicted,
             samples,
             terms: own,
+            unseen,
         } = sensor;
         let are_rows = |rows: &[Vec<f64>]| {
             rows.len() == replicates && rows.iter().all(|row| row.len() == points)
@@ -91,6 +92,7 @@ fn has_shape(estimates: &Estimates, scene: &Scene, settings: &Settings) -> bool 
         are_rows(replicate_lx)
             && [direct_lx.len(), samples.len()] == [points; 2]
             && [resolved, missed, contradicted].iter().all(|flags| flags.len() == points)
+            && unseen.as_ref().is_none_or(|unseen| unseen.has_points(points))
             && own.len() == terms
             && own.iter().all(is_term)
     };
@@ -102,6 +104,7 @@ fn has_shape(estimates: &Estimates, scene: &Scene, settings: &Settings) -> bool 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::stats::unseen::UnseenLight;
     use quasilux_scene::{Sensor, SensorPoint, SensorShape};
 
     /// Bytes that a resealed file may hold: all is well with them but the number of rows or of
@@ -123,6 +126,7 @@ mod tests {
                 contradicted: vec![false; 2],
                 samples: vec![16; 2],
                 terms: vec![term; terms],
+                unseen: Some(UnseenLight::unknown(2)),
             };
             Estimates { sensors: vec![sensor], ..Estimates::default() }
         };

@@ -2,6 +2,7 @@
 //! come ([`course`]), parts of a run on several machines ([`parts`]), pictures ([`pictures`]).
 
 pub(crate) mod blocks;
+pub(crate) mod cannot_see;
 pub(crate) mod check;
 pub(crate) mod course;
 pub(crate) mod memory;

@@ -6,6 +6,7 @@ use crate::context::Context;
 use crate::estimator::witness::{self, Witness};
 use crate::estimator::{Estimator, new_estimator};
 use crate::prepared::PreparedScene;
+use crate::run::cannot_see::cannot_see;
 use crate::run::check::{caveats, is_biased};
 use crate::run::course::Course;
 use crate::run::pictures::add_pictures;
@@ -293,8 +294,14 @@ pub(crate) fn look<S: Spectrum>(
     estimates.biased |= is_biased(scene, settings);
     estimates.warnings.extend(caveats(scene, settings));
     estimates.warnings.extend(context.warning.clone());
-    let sees_hidden =
-        settings.estimator != EstimatorKind::Photon && settings.max_bounces != Some(0);
+    // An estimator with a bound says itself what it cannot make.
+    let is_bounded = estimates.sensors.iter().any(|sensor| sensor.unseen.is_some());
+    if !is_bounded {
+        estimates.cannot_see = cannot_see(context, scene, settings);
+    }
+    let sees_hidden = !is_bounded
+        && settings.estimator != EstimatorKind::Photon
+        && settings.max_bounces != Some(0);
     if let (Some(ways), true) = (&context.hides, sees_hidden) {
         estimates.biased = true;
         estimates.warnings.push(format!(

@@ -16,7 +16,7 @@
 //! checkpoints tell little of a slope: its variance is s^2 = v / sum (ln N_k - mean)^2 where
 //! targets err together. What is predicted therefore uses the mean of the measured slope and of
 //! -1/2, weighted by the inverse of s^2 and of P^2, the variance of slopes among scenes (the
-//! posterior mean where all are normal).
+//! posterior mean where all are normal). Bounds on light that no sample met shrink like N^(-1).
 //!
 //! Points that go on are those that seemed worst, in part by chance, and look better the next time.
 //! That part of their half-widths is estimated as empirical Bayes does (B. Efron and C. Morris,
@@ -125,9 +125,11 @@ impl History {
                 if standing.done[target] && schedule.is_look() {
                     return Some(now[target].samples);
                 }
-                let excess = standing.excess[target].filter(|excess| excess.is_finite());
-                let wanted =
-                    estimates.samples as f64 * libm::pow(excess?.max(1.0), 1.0 / steepness);
+                let excess = standing.excess[target].filter(|excess| excess.is_finite())?;
+                // Bounds on unseen light shrink like 1/N.
+                let of_unseen = standing.unseen_excess[target].unwrap_or(0.0);
+                let more = libm::pow(excess.max(1.0), 1.0 / steepness).max(of_unseen);
+                let wanted = estimates.samples as f64 * more;
                 let is_possible = wanted <= MAX_SAMPLES as f64;
                 is_possible
                     .then(|| schedule.look_at_or_after((wanted as u64).max(estimates.samples)))
@@ -288,48 +290,87 @@ mod tests {
     use crate::settings::Settings;
     use crate::stats::estimates::SensorEstimates;
 
-    /// Two targets with half-widths of `scale * N^slope` over value each, the first done at `done`;
-    /// what is known at the last checkpoint up to `last`.
-    fn known(slope: f64, scales: [f64; 2], done: u64, last: u64) -> Convergence {
-        let settings = Settings { rel_tol: 0.01, ..Settings::default() };
-        let (mut history, mut schedule) = (History::default(), Schedule::new(16, None));
-        let mut rays = 0;
-        loop {
-            let n = schedule.next_checkpoint();
-            let samples = vec![n.min(done), n];
-            rays += if n > done { n / 2 } else { n };
-            let widths: Vec<f64> =
-                scales.iter().zip(&samples).map(|(s, n)| s * libm::pow(*n as f64, slope)).collect();
-            let estimates = Estimates {
+    /// Two targets with half-widths of `scale * N^slope` over value each, the first done at `done`.
+    struct MadeUp {
+        slope: f64,
+        scales: [f64; 2],
+        done: u64,
+        /// What the bounds on unseen light are with one sample, over what is little enough.
+        unseen: Option<f64>,
+    }
+
+    impl MadeUp {
+        /// What is known at the last checkpoint up to `last`.
+        fn known(&self, last: u64) -> Convergence {
+            let settings = Settings { rel_tol: 0.01, ..Settings::default() };
+            let (mut history, mut schedule) = (History::default(), Schedule::new(16, None));
+            let mut rays = 0;
+            loop {
+                let n = schedule.next_checkpoint();
+                rays += if n > self.done { n / 2 } else { n };
+                let estimates = self.estimates(n, rays);
+                let standing = self.standing(&estimates.sensors[0].samples, &settings);
+                let finding =
+                    Finding { estimates: &estimates, standing: &standing, is_adaptive: true };
+                let convergence = history.record(finding, &schedule, &settings);
+                if n >= last {
+                    return convergence;
+                }
+                schedule.advance();
+            }
+        }
+
+        fn estimates(&self, n: u64, rays: u64) -> Estimates {
+            Estimates {
                 sensors: vec![SensorEstimates {
                     replicate_lx: Vec::new(),
                     direct_lx: Vec::new(),
                     resolved: vec![true; 2],
                     missed: vec![false; 2],
                     contradicted: vec![false; 2],
-                    samples,
+                    samples: vec![n.min(self.done), n],
                     terms: Vec::new(),
+                    unseen: None,
                 }],
                 samples: n,
                 rays,
                 ..Estimates::default()
-            };
-            let standing = Standing {
+            }
+        }
+
+        fn standing(&self, samples: &[u64], settings: &Settings) -> Standing {
+            let at = |(scale, n): (&f64, &u64)| scale * libm::pow(*n as f64, self.slope);
+            let widths: Vec<f64> = self.scales.iter().zip(samples).map(at).collect();
+            let unseen_excess = |n: &u64| self.unseen.map(|unseen| unseen / *n as f64);
+            let narrow: Vec<bool> = widths.iter().map(|width| *width <= settings.rel_tol).collect();
+            Standing {
                 relative_widths: widths.iter().copied().map(Some).collect(),
                 excess: widths.iter().map(|width| Some(width / settings.rel_tol)).collect(),
-                narrow: widths.iter().map(|width| *width <= settings.rel_tol).collect(),
-                done: widths.iter().map(|width| *width <= settings.rel_tol).collect(),
+                unseen_excess: samples.iter().map(unseen_excess).collect(),
+                done: narrow.clone(),
+                narrow,
                 unresolved: 0,
                 is_reached: false,
                 may_end: false,
-            };
-            let finding = Finding { estimates: &estimates, standing: &standing, is_adaptive: true };
-            let convergence = history.record(finding, &schedule, &settings);
-            if n >= last {
-                return convergence;
             }
-            schedule.advance();
         }
+    }
+
+    fn known(slope: f64, scales: [f64; 2], done: u64, last: u64) -> Convergence {
+        MadeUp { slope, scales, done, unseen: None }.known(last)
+    }
+
+    /// Half-widths are to be reached at 1024 samples, bounds of 8 at 64 samples at 512 or 4096.
+    #[test]
+    fn bounds_on_unseen_light_shrink_like_one_over_the_samples() {
+        let scale = 0.08 * 4.0;
+        let end = |unseen| {
+            let made_up = MadeUp { slope: -0.5, scales: [scale; 2], done: 1 << 20, unseen };
+            made_up.known(64).samples
+        };
+        assert_eq!(end(Some(512.0)), end(None));
+        assert_eq!(end(Some(4096.0)), Some(4096));
+        assert_eq!(end(Some(f64::INFINITY)), None);
     }
 
     #[test]

@@ -5,6 +5,7 @@ use crate::stats::decisions::Decisions;
 use crate::stats::interval::{Interval, t_quantile_for};
 use crate::stats::minimum::{interval_of_minimum, ratios};
 use crate::stats::picture::CameraEstimates;
+use crate::stats::unseen::{UnseenLight, factor_of_all};
 use quasilux_sampling::DimensionHistogram;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
@@ -51,6 +52,9 @@ pub struct Estimates {
     pub relieved_points: u64,
     /// Whether values may be biased beyond what their intervals say.
     pub biased: bool,
+    /// Classes of light paths in the scene that the estimator cannot make, such as "lamp, mirror,
+    /// point": values are without their light, or have it blurred. Empty where there are none.
+    pub cannot_see: Vec<String>,
     /// What a reader of the results must know.
     pub warnings: Vec<String>,
 }
@@ -76,6 +80,9 @@ pub struct SensorEstimates {
     /// The terms of the Neumann series, by bounces, and the rest; empty where none were to be
     /// listed.
     pub terms: Vec<TermEstimates>,
+    /// What is left open beside the intervals; `None` of estimators without a bound. Points with
+    /// one are resolved: it says what may be missing.
+    pub unseen: Option<UnseenLight>,
 }
 
 /// What light of one number of bounces, or of that many and more, gives to one sensor.
@@ -231,8 +238,12 @@ fn mean(lx: &[f64]) -> f64 {
 }
 
 impl SensorEstimates {
-    /// Withdraws the intervals of the points that a witness contradicts.
+    /// Withdraws the intervals of the points that a witness contradicts; none where a bound says
+    /// what may be missing.
     pub(crate) fn withdraw(&mut self, contradicted: Vec<bool>) {
+        if self.unseen.is_some() {
+            return;
+        }
         let terms = self.terms.iter_mut().map(|term| &mut term.resolved);
         for resolved in terms.chain([&mut self.resolved]) {
             let known = resolved.iter_mut().zip(&contradicted);
@@ -244,6 +255,8 @@ impl SensorEstimates {
 
     /// Withdraws the intervals of the points where light may hide that more paths would show.
     pub(crate) fn withdraw_unseen(&mut self, unseen: impl Iterator<Item = bool>) {
+        let is_bounded = self.unseen.is_some();
+        let unseen = unseen.map(|unseen| unseen && !is_bounded);
         for (point, _) in unseen.enumerate().filter(|(_, unseen)| *unseen) {
             self.resolved[point] = false;
             self.missed[point] = true;
@@ -269,6 +282,9 @@ impl SensorEstimates {
             rows(&mut to.replicate_lx, &from.replicate_lx);
             take(&mut to.resolved, &from.resolved, points);
         }
+        if let Some(unseen) = &mut self.unseen {
+            unseen.replace(points, other.unseen.as_ref());
+        }
     }
 
     /// The figures of some of its points.
@@ -288,6 +304,7 @@ impl SensorEstimates {
             contradicted: self.contradicted[points.clone()].to_vec(),
             samples: self.samples[points.clone()].to_vec(),
             terms: self.terms.iter().map(term).collect(),
+            unseen: self.unseen.as_ref().map(|unseen| unseen.part(points)),
         }
     }
 }
@@ -318,5 +335,51 @@ impl Estimates {
         let means = &self.cameras[camera].replicate_mean_cd_m2;
         let t = t_quantile_for(means.len(), 1.0 - self.confidence);
         Interval::of_mean(means.iter().copied(), t)
+    }
+}
+
+impl Estimates {
+    /// The illuminance in lx at most that no sample met in the average over a sensor's points, with
+    /// [`UNSEEN_CONFIDENCE`](crate::unseen::UNSEEN_CONFIDENCE); `None` of estimators without a
+    /// bound.
+    #[must_use]
+    pub fn unseen_of_average(&self, sensor: usize) -> Option<f64> {
+        self.sensors[sensor].unseen.as_ref().map(|unseen| unseen.average_lx)
+    }
+
+    /// How much larger in lx the smallest value of one sensor may be by light that no sample met:
+    /// with bounds that hold at all m points at once, `u'_t = u_t ln(m / 0.05) / ln(1 / 0.05)`,
+    /// it is `min(v_t + u'_t) - min(v_t)`.
+    #[must_use]
+    pub fn unseen_of_minimum(&self, sensor: usize) -> Option<f64> {
+        self.unseen_of_extreme(sensor, f64::INFINITY, f64::min)
+    }
+
+    /// The same of the largest value.
+    #[must_use]
+    pub fn unseen_of_maximum(&self, sensor: usize) -> Option<f64> {
+        self.unseen_of_extreme(sensor, f64::NEG_INFINITY, f64::max)
+    }
+
+    fn unseen_of_extreme(
+        &self,
+        sensor: usize,
+        start: f64,
+        of: impl Fn(f64, f64) -> f64,
+    ) -> Option<f64> {
+        let SensorEstimates { replicate_lx, unseen, .. } = &self.sensors[sensor];
+        let bounds_lx = &unseen.as_ref()?.point_lx;
+        let factor = factor_of_all(bounds_lx.len());
+        let value_lx = |point: usize| {
+            replicate_lx.iter().map(|row| row[point]).sum::<f64>() / replicate_lx.len() as f64
+        };
+        let points = bounds_lx.iter().enumerate();
+        let [without, with] = points.fold([start; 2], |[without, with], (point, bound_lx)| {
+            let value_lx = value_lx(point);
+            [of(without, value_lx), of(with, value_lx + factor * bound_lx)]
+        });
+        let more_lx = with - without;
+        // What is no number is not known at all.
+        Some(if more_lx.is_nan() { f64::INFINITY } else { more_lx.max(0.0) })
     }
 }

@@ -1,7 +1,8 @@
 //! Exact sums, confidence intervals, and when a run may stop.
 //!
 //! [`tally`] holds the sums, [`interval`] and [`minimum`] how intervals are made, [`estimates`]
-//! those of sensor values, [`sequential`] what looking several times costs them, [`schedule`] and
+//! those of sensor values, [`unseen`] what is left open beside
+//! them, [`sequential`] what looking several times costs them, [`schedule`] and
 //! [`tolerance`] what the decision to stop needs (`run::simulate` takes it), [`convergence`] the
 //! prediction of the end, [`efficiency`] the choice between estimators, [`observer`] and [`watch`]
 //! the way out of a run, [`workers`] the way to other processes.
@@ -20,5 +21,6 @@ pub(crate) mod sequential;
 pub(crate) mod tally;
 pub(crate) mod targets;
 pub(crate) mod tolerance;
+pub mod unseen;
 pub(crate) mod watch;
 pub(crate) mod workers;

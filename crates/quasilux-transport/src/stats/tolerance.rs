@@ -18,6 +18,9 @@ pub(crate) struct Standing {
     /// Half-width over tolerance of what has to reach it: the point, or the average of its sensor.
     /// `None` where there is no half-width, or nothing to reach.
     pub(crate) excess: Vec<Option<f64>>,
+    /// The same of the bound on light that no sample met: 0 where it is not waited for, `None` of
+    /// estimators without one.
+    pub(crate) unseen_excess: Vec<Option<f64>>,
     /// Whether what was found is known as well, be the interval withdrawn or not.
     pub(crate) narrow: Vec<bool>,
     /// Whether more samples are of no use to a target.
@@ -26,8 +29,8 @@ pub(crate) struct Standing {
     pub(crate) unresolved: u64,
     /// Whether all that has to reach the tolerance has.
     pub(crate) is_reached: bool,
-    /// Whether the run need not go on: points where nothing was found hold it up until they had a
-    /// fair chance, not for ever.
+    /// Whether the run need not go on: points where nothing was found, and those in the dark of which
+    /// nothing is asked in lx, hold it up until they had a fair chance, not for ever.
     pub(crate) may_end: bool,
 }
 
@@ -41,6 +44,7 @@ impl Standing {
         let mut standing = Self {
             relative_widths: Vec::new(),
             excess: Vec::new(),
+            unseen_excess: Vec::new(),
             narrow: Vec::new(),
             done: Vec::new(),
             unresolved: 0,
@@ -62,20 +66,32 @@ impl Standing {
                     standing.narrow.extend(narrow.map(is_narrow));
                     for (number, point) in points.iter().enumerate() {
                         let excess = excess_of(point);
+                        let unseen_excess = figures.unseen.as_ref().map(|unseen| {
+                            unseen_excess(unseen.point_lx[number], point.value, settings)
+                        });
                         let resolved = figures.resolved[number];
                         let missed = figures.missed[number] || figures.contradicted[number];
-                        let done = resolved && excess.is_some_and(|excess| excess <= 1.0);
-                        standing.add(excess, done, !resolved && had_a_chance(missed));
+                        let target = Target { excess, unseen_excess, resolved };
+                        let is_given_up = match resolved {
+                            true => target.is_without_end() && had_a_chance(false),
+                            false => had_a_chance(missed),
+                        };
+                        standing.add(target, is_given_up);
                     }
                 }
                 ToleranceOn::Summary => {
-                    let excess = excess_of(&estimates.found_average(sensor));
+                    let average = estimates.found_average(sensor);
+                    let excess = excess_of(&average);
+                    let unseen_lx = estimates.unseen_of_average(sensor);
+                    let unseen_excess =
+                        unseen_lx.map(|lx| unseen_excess(lx, average.value, settings));
                     let misses =
                         [&figures.missed, &figures.contradicted].map(|of| of.contains(&true));
-                    let done = excess.is_some_and(|excess| excess <= 1.0)
-                        && (unresolved == 0 || had_a_chance(misses.contains(&true)));
-                    standing.narrow.extend(points.iter().map(|_| done));
-                    points.iter().for_each(|_| standing.add(excess, done, false));
+                    let resolved = unresolved == 0 || had_a_chance(misses.contains(&true));
+                    let target = Target { excess, unseen_excess, resolved };
+                    let is_given_up = target.is_without_end() && had_a_chance(false);
+                    standing.narrow.extend(points.iter().map(|_| target.is_done()));
+                    points.iter().for_each(|_| standing.add(target, is_given_up));
                 }
             }
         }
@@ -89,11 +105,39 @@ impl Standing {
         widths.reduce(|a, b| if a > b { a } else { b })
     }
 
-    fn add(&mut self, excess: Option<f64>, done: bool, is_given_up: bool) {
-        self.excess.push(excess);
+    fn add(&mut self, target: Target, is_given_up: bool) {
+        let done = target.is_done();
+        self.excess.push(target.excess);
+        self.unseen_excess.push(target.unseen_excess);
         self.done.push(done);
         self.is_reached &= done;
         self.may_end &= done || is_given_up;
+    }
+}
+
+/// How one target stands.
+#[derive(Clone, Copy)]
+struct Target {
+    excess: Option<f64>,
+    unseen_excess: Option<f64>,
+    /// Whether light was found wherever it was looked for.
+    resolved: bool,
+}
+
+impl Target {
+    fn is_done(&self) -> bool {
+        let is_seen = self.unseen_excess.is_none_or(|excess| excess <= 1.0);
+        self.resolved && self.is_narrow() && is_seen
+    }
+
+    /// Whether it is known well but for a bound that no number of samples brings down to nothing,
+    /// as in the dark, or that knows nothing.
+    fn is_without_end(&self) -> bool {
+        self.is_narrow() && self.unseen_excess == Some(f64::INFINITY)
+    }
+
+    fn is_narrow(&self) -> bool {
+        self.excess.is_some_and(|excess| excess <= 1.0)
     }
 }
 
@@ -104,4 +148,124 @@ fn excess(interval: &Interval, settings: &Settings) -> Option<f64> {
     let excess = if half_width == 0.0 { 0.0 } else { half_width / tolerance_lx };
     // What is no number is not known at all.
     Some(if excess.is_nan() { f64::INFINITY } else { excess })
+}
+
+/// The bound on unseen light over what is little enough of it; 0 where it is not waited for.
+fn unseen_excess(unseen_lx: f64, value_lx: f64, settings: &Settings) -> f64 {
+    let Some(tolerance_lx) = settings.unseen_tolerance_lx(value_lx) else { return 0.0 };
+    let excess = if unseen_lx == 0.0 { 0.0 } else { unseen_lx / tolerance_lx };
+    // What is no number is not known at all.
+    if excess.is_nan() { f64::INFINITY } else { excess }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::settings::UnseenTolerance;
+    use crate::stats::estimates::SensorEstimates;
+    use crate::stats::unseen::UnseenLight;
+
+    /// Points of one sensor that all replicates agree on but for one part in a thousand, each with
+    /// its bound on unseen light; `average_lx` is that of the average.
+    fn made_up(points: &[(f64, f64)], average_lx: f64) -> Estimates {
+        let row = |replicate: usize| {
+            let sign = if replicate.is_multiple_of(2) { 1.0 } else { -1.0 };
+            points.iter().map(|(value_lx, _)| value_lx * (1.0 + 1e-3 * sign)).collect()
+        };
+        let n = points.len();
+        let unseen = UnseenLight {
+            point_lx: points.iter().map(|(_, unseen_lx)| *unseen_lx).collect(),
+            average_lx,
+            ..UnseenLight::unknown(n)
+        };
+        let sensor = SensorEstimates {
+            replicate_lx: (0..16).map(row).collect(),
+            direct_lx: vec![0.0; n],
+            resolved: vec![true; n],
+            missed: vec![false; n],
+            contradicted: vec![false; n],
+            samples: vec![1 << 10; n],
+            terms: Vec::new(),
+            unseen: Some(unseen),
+        };
+        Estimates {
+            sensors: vec![sensor],
+            samples: 1 << 10,
+            miss_probability: 0.05,
+            ..Estimates::default()
+        }
+    }
+
+    fn standing(points: &[(f64, f64)], settings: &Settings) -> Standing {
+        Standing::new(&made_up(points, 0.0), settings)
+    }
+
+    #[test]
+    fn a_point_waits_for_both_numbers() {
+        let settings = Settings { rel_tol: 0.03, ..Settings::default() };
+        let points = [(100.0, 4.9), (100.0, 5.1)];
+        let at_5_percent = standing(&points, &settings);
+        assert_eq!(at_5_percent.done, [true, false]);
+        assert_eq!(at_5_percent.unseen_excess[0], Some(4.9 / 5.0));
+        assert!(!at_5_percent.is_reached && !at_5_percent.may_end);
+        let wide = Settings { rel_tol: 0.06, ..settings.clone() };
+        assert!(standing(&points, &wide).is_reached, "rel_tol is larger than 5 %");
+        let strict = Settings { unseen_tol: UnseenTolerance::Share(0.04), ..settings.clone() };
+        assert_eq!(standing(&points, &strict).done, [false, false]);
+        let off = Settings { unseen_tol: UnseenTolerance::Off, ..settings };
+        assert!(standing(&points, &off).is_reached, "it is told, not waited for");
+    }
+
+    /// `0 +- 0, at most 0.02 lx unseen` is an answer where so little is enough; where nothing is
+    /// said of lx, no number of samples is, and the run ends without it after 2^14 tries.
+    #[test]
+    fn the_dark_is_done_where_its_bound_is_little_in_lx() {
+        let points = [(0.0, 0.02)];
+        let in_lx = |abs_tol_lx| Settings { abs_tol_lx, ..Settings::default() };
+        assert!(standing(&points, &in_lx(0.02)).is_reached);
+        let too_much = standing(&points, &in_lx(0.01));
+        assert!(!too_much.is_reached && !too_much.may_end);
+        let relative = standing(&points, &Settings::default());
+        assert!(!relative.is_reached && relative.may_end);
+        let few = Estimates { samples: 1 << 9, ..made_up(&points, 0.0) };
+        assert!(!Standing::new(&few, &Settings::default()).may_end);
+        assert!(standing(&[(0.0, 0.0)], &Settings::default()).is_reached);
+    }
+
+    #[test]
+    fn averages_wait_for_their_own_bound() {
+        let settings =
+            Settings { tolerance_on: ToleranceOn::Summary, abs_tol_lx: 0.5, ..Settings::default() };
+        let points = [(100.0, 20.0), (100.0, f64::INFINITY)];
+        assert!(Standing::new(&made_up(&points, 4.9), &settings).is_reached);
+        let open = Standing::new(&made_up(&points, 5.1), &settings);
+        assert!(!open.is_reached && !open.may_end);
+        assert!(Standing::new(&made_up(&points, f64::INFINITY), &settings).may_end);
+    }
+
+    /// Bounds that hold at three points at once are ln(3 / 0.05) / ln(1 / 0.05) times as large: the
+    /// smallest value is at most that of the second point with its bound.
+    #[test]
+    fn bounds_of_extremes_hold_at_all_points() {
+        let factor_of_3 = libm::log(60.0) / libm::log(20.0);
+        let estimates = made_up(&[(1.0, 0.1), (1.0, 0.02), (3.0, 0.5)], 0.2);
+        let minimum = estimates.unseen_of_minimum(0).unwrap();
+        assert!((minimum - 0.02 * factor_of_3).abs() < 1e-12, "{minimum}");
+        let maximum = estimates.unseen_of_maximum(0).unwrap();
+        assert!((maximum - 0.5 * factor_of_3).abs() < 1e-12, "{maximum}");
+        assert_eq!(estimates.unseen_of_average(0), Some(0.2));
+        let dark = made_up(&[(0.0, 0.0), (1.0, f64::INFINITY)], 0.0);
+        assert_eq!(dark.unseen_of_minimum(0), Some(0.0));
+        assert_eq!(dark.unseen_of_maximum(0), Some(f64::INFINITY));
+    }
+
+    /// Neither a witness nor what seems to be hidden takes the interval of a point with a bound.
+    #[test]
+    fn points_with_a_bound_are_not_withdrawn() {
+        let mut sensor = made_up(&[(1.0, 0.1), (2.0, 0.1)], 0.1).sensors.remove(0);
+        sensor.withdraw(vec![true, false]);
+        sensor.withdraw_unseen([false, true].into_iter());
+        assert!(sensor.resolved.iter().all(|resolved| *resolved));
+        assert!(![&sensor.missed, &sensor.contradicted].iter().any(|flags| flags.contains(&true)));
+    }
 }

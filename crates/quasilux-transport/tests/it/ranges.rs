@@ -2,7 +2,7 @@
 
 use crate::element_size::room_with_points;
 use quasilux_sampling::Sequence;
-use quasilux_transport::{CheckError, Settings, check};
+use quasilux_transport::{CheckError, Settings, UnseenTolerance, check};
 
 #[test]
 fn numbers_that_mean_nothing_are_refused() {
@@ -13,6 +13,8 @@ fn numbers_that_mean_nothing_are_refused() {
         ("rel_tol", Settings { rel_tol: f64::NAN, ..good.clone() }),
         ("rel_tol", Settings { rel_tol: -0.01, ..good.clone() }),
         ("abs_tol_lx", Settings { abs_tol_lx: f64::INFINITY, ..good.clone() }),
+        ("unseen_tol", Settings { unseen_tol: UnseenTolerance::Share(-0.1), ..good.clone() }),
+        ("unseen_tol", Settings { unseen_tol: UnseenTolerance::Share(f64::NAN), ..good.clone() }),
         ("confidence", Settings { confidence: 1.0, ..good.clone() }),
         ("confidence", Settings { confidence: f64::NAN, ..good.clone() }),
         ("replicates", Settings { replicates: 0, ..good.clone() }),

@@ -2,6 +2,7 @@
 
 use clap::builder::PossibleValuesParser;
 use quasilux_scene::project::doubt_of_tolerance;
+use quasilux_transport::UnseenTolerance;
 use std::fmt::Display;
 use std::ops::{Range, RangeInclusive};
 use std::time::Duration;
@@ -31,6 +32,15 @@ pub(super) fn share(text: &str) -> Result<f64, String> {
         None => any_share(text)
             .ok_or_else(|| "expected a share above 0 and up to 100%, like 1% or 0.01".to_owned()),
     }
+}
+
+/// A tolerance of unseen light, as [`share`], or off.
+pub(super) fn unseen_tolerance(text: &str) -> Result<UnseenTolerance, String> {
+    if text.trim() == UnseenTolerance::OFF {
+        return Ok(UnseenTolerance::Off);
+    }
+    let or_off = |said: String| format!("{said}, or {}", UnseenTolerance::OFF);
+    share(text).map(UnseenTolerance::Share).map_err(or_off)
 }
 
 /// A share in (0, 1).
@@ -106,6 +116,10 @@ mod tests {
         for bad in ["0", "-1%", "101%", "x", "", "%", "nan", "inf"] {
             assert!(share(bad).is_err(), "{bad}");
         }
+        assert_eq!(unseen_tolerance("5%"), Ok(UnseenTolerance::Share(0.05)));
+        assert_eq!(unseen_tolerance("off"), Ok(UnseenTolerance::Off));
+        assert!(unseen_tolerance("none").unwrap_err().ends_with(", or off"));
+        assert!(unseen_tolerance("2").unwrap_err().contains("was 2 % meant?"));
         assert_eq!((level("99%"), illuminance("0.5 lx")), (Ok(0.99), Ok(0.5)));
         assert!(level("1").is_err() && level("100%").is_err());
         for bad in ["0", "-1lx", "lx", "inf", "nan", "1 fc"] {

@@ -62,6 +62,23 @@ fn what_is_enough_can_be_said_in_lx_and_for_averages() {
     assert_eq!(document["run"]["confidence"], 0.9);
 }
 
+/// The option goes before the project file, and both before 5 %.
+#[test]
+fn what_may_stay_unseen_can_be_said() {
+    let folder = room("limits_unseen");
+    let unseen = |project: &str, more: &[&str]| {
+        let options = [&["--samples", "16", "--estimator", "path"], more].concat();
+        parsed(&folder.document(project, "out", &options, 3))["run"]["unseen_tol"].clone()
+    };
+    assert_eq!(unseen("room.toml", &[]), 0.05);
+    assert_eq!(unseen("room.toml", &["--unseen-tol", "off"]), "off");
+    let project =
+        folder.read("room.toml").replace("replicates", "unseen_tol = \"off\"\nreplicates");
+    folder.write("off.toml", project);
+    assert_eq!(unseen("off.toml", &[]), "off");
+    assert_eq!(unseen("off.toml", &["--unseen-tol", "2%"]), 0.02);
+}
+
 #[test]
 fn without_intervals_samples_end_a_run() {
     let folder = room("limits_unrandomised");

@@ -29,22 +29,27 @@ fn a_document_a_spreadsheet_a_sensor_and_a_picture_a_grid() {
     }
 }
 
+/// Keys of a point's light, which the spreadsheet has as columns.
+const LIGHT: [&str; 5] =
+    ["/illuminance_lx", "/half_width_lx", "/direct_lx", "/unseen_lx", "/merged_lx"];
+
 /// The spreadsheet has the document's numbers, after `indices` columns of grid indices.
 fn check_csv(csv: &str, sensor: &Value, indices: usize) {
     let points = sensor["points"].as_array().expect("points");
     let mut lines = csv.lines();
     let header = lines.next().expect("a header");
-    assert!(header.ends_with("illuminance_lx,half_width_lx,direct_lx"), "{header}");
+    assert!(header.ends_with(&LIGHT.join(",")[1..].replace(",/", ",")), "{header}");
     assert_eq!(lines.clone().count(), points.len());
     for (line, point) in lines.zip(points) {
-        let fields: Vec<f64> = line.split(',').map(|x| x.parse().expect("a number")).collect();
-        let mut expected: Vec<f64> = Vec::new();
+        // A field is empty where the document has no number.
+        let field = |x: &str| (!x.is_empty()).then(|| x.parse().expect("a number"));
+        let fields: Vec<Option<f64>> = line.split(',').map(field).collect();
+        let mut expected: Vec<Option<f64>> = Vec::new();
         for key in ["position", "normal"] {
-            expected.extend((0..3).map(|axis| number(point, &format!("/{key}/{axis}"))));
+            expected.extend((0..3).map(|axis| Some(number(point, &format!("/{key}/{axis}")))));
         }
-        for key in ["/illuminance_lx", "/half_width_lx", "/direct_lx"] {
-            expected.push(number(point, key));
-        }
+        let value = |key: &str| point.pointer(key).expect("a key").as_f64();
+        expected.extend(LIGHT.map(value));
         assert_eq!(fields[indices..], expected, "{line}");
     }
 }
@@ -71,6 +76,8 @@ fn the_document_has_the_agreed_keys() {
         for (i, point) in sensor["points"].as_array().into_iter().flatten().enumerate() {
             let [all, direct] = ["/illuminance_lx", "/direct_lx"].map(|key| number(point, key));
             assert!(0.0 < direct && direct < all, "{name}[{i}]: {direct} of {all}");
+            let keys = ["unseen_lx", "merged_lx", "disc_radius_m"];
+            assert!(keys.iter().all(|key| point.get(key).is_some()), "{name}[{i}]");
             let half_width = number(point, "/half_width_lx");
             assert!(0.0 < half_width && half_width <= 0.1 * all, "{name}[{i}]: {half_width}");
         }
@@ -79,8 +86,14 @@ fn the_document_has_the_agreed_keys() {
     for key in ["samples", "rays", "seconds", "threads", "mean_dimension/path", "flux_emitted_lm"] {
         assert!(number(run, &format!("/{key}")) > 0.0, "{key}");
     }
-    for (key, value) in [("replicates", 8.0), ("confidence", 0.95), ("invalid_contributions", 0.0)]
-    {
+    assert!(run["cannot_see"].is_array());
+    for (key, value) in [
+        ("replicates", 8.0),
+        ("confidence", 0.95),
+        ("unseen_confidence", 0.95),
+        ("unseen_tol", 0.05),
+        ("invalid_contributions", 0.0),
+    ] {
         assert_eq!(number(run, &format!("/{key}")), value, "{key}");
     }
     for (key, value) in [("estimator", "auto"), ("sequence", "sobol"), ("version", "0.1.0")] {

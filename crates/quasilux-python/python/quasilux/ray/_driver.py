@@ -37,6 +37,7 @@ def simulate(
     *,
     rel_tol: float | str | None = None,
     abs_tol_lx: float | None = None,
+    unseen_tol: float | str | None = None,
     tolerance_on: Literal["points", "summary"] | None = None,
     confidence: float | str | None = None,
     samples: int | None = None,
@@ -64,7 +65,7 @@ def simulate(
     ----------
     scene : Scene or path-like
         A scene, or its project file on the driver's machine. It is shipped to the cluster once.
-    rel_tol, abs_tol_lx, tolerance_on, confidence, samples, rays, time_s
+    rel_tol, abs_tol_lx, unseen_tol, tolerance_on, confidence, samples, rays, time_s
         As in `quasilux.simulate`.
     estimator, sequence, seed, strict, progress
         As in `quasilux.simulate`.
@@ -103,6 +104,7 @@ def simulate(
     options.run(
         rel_tol=rel_tol,
         abs_tol_lx=abs_tol_lx,
+        unseen_tol=unseen_tol,
         tolerance_on=tolerance_on,
         confidence=confidence,
         samples=samples,

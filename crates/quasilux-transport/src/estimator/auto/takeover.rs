@@ -201,6 +201,7 @@ mod tests {
             contradicted: vec![false; POINTS],
             samples: vec![128; POINTS],
             terms: Vec::new(),
+            unseen: None,
         }
     }
 

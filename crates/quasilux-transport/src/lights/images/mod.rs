@@ -14,11 +14,12 @@ mod cone;
 mod emitters;
 #[cfg(test)]
 mod fixtures;
+mod hidden;
 mod light_path_class;
 mod planes;
 mod tree;
 
-use crate::lights::{Asking, ChoiceWork, EmitterPlace, EmitterPoint, Lights, PointLikes};
+use crate::lights::{Asking, ChoiceWork, EmitterPlace, EmitterPoint, PointLikes};
 use crate::spectrum::Spectrum;
 use crate::world::vertex::Vertex;
 use crate::world::visibility::{Receiver, ShadowQueue};
@@ -32,6 +33,7 @@ use quasilux_sampling::choose_weights;
 use tree::{Imaged, Images};
 
 pub(crate) use chain::Links;
+pub(crate) use hidden::HiddenWay;
 pub(crate) use light_path_class::LightPathClass;
 
 /// Up to this number of images at a vertex are all tested; of more one is chosen.
@@ -116,38 +118,6 @@ impl SpecularImages {
     /// What a mirror facet shows of an image.
     fn shown_by(&self, image: u32, facet: u32) -> Option<u32> {
         self.images.child(image, self.mirrors.of_facet(facet)?)
-    }
-
-    /// What specular surfaces do with the light of points and luminaires that no image shows and no
-    /// path finds, in words.
-    pub(crate) fn hides<S: Spectrum>(
-        &self,
-        world: &World<S>,
-        lights: &Lights<'_>,
-    ) -> Option<String> {
-        let is_specular = |facet: &Facet| world.bsdf_of(facet).is_specular();
-        let is_shown = |facet: &Facet| world.bsdf_of(facet).image_reflectance(1.0, true).is_some();
-        let mut specular = world.facets.iter().filter(|facet| is_specular(facet)).peekable();
-        let no_light = lights.pointlikes.is_empty() && lights.area_luminaires.is_empty();
-        if no_light || specular.peek().is_none() {
-            return None;
-        }
-        let mut ways = Vec::new();
-        if !lights.area_luminaires.is_empty() {
-            ways.push("from luminous shapes by mirrors".to_owned());
-        }
-        if specular.any(|facet| !is_shown(facet)) {
-            ways.push("through refracting bodies".to_owned());
-        }
-        if self.mirrors.curved_facets > 0 {
-            let facets = self.mirrors.curved_facets;
-            ways.push(format!("by curved mirrors ({facets} facets in many small planes)"));
-        }
-        if self.images.goes_on {
-            let depth = self.images.nodes.last().map_or(0, |image| image.depth);
-            ways.push(format!("over more than {depth} mirrors one after the other"));
-        }
-        (!ways.is_empty()).then(|| ways.join(", "))
     }
 
     /// Whether there are none.

@@ -1,0 +1,116 @@
+//! Light that no sample met: a bound beside each value, `docs/unseen.md`.
+//!
+//! With n independent trials, of which each expects at most K samples in a set of paths that it has
+//! one in, and samples that add at most W, a set of paths with more light than ln(1/d) K W is left
+//! without any sample with a probability of at most d.
+
+use serde::{Deserialize, Serialize};
+use std::ops::Range;
+
+/// Confidence of the bounds on unseen light: 1 - d.
+pub const UNSEEN_CONFIDENCE: f64 = 0.95;
+
+/// What the samples of one sensor leave open: bounds on light that may come by ways on which no
+/// sample lay.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct UnseenLight {
+    /// At each point, the illuminance in lx at most that may come by ways on which no sample lay,
+    /// with [`UNSEEN_CONFIDENCE`]; never negative, infinite where nothing is known.
+    pub point_lx: Vec<f64>,
+    /// The same of the average over all points, in lx: never more than the mean of `point_lx`.
+    pub average_lx: f64,
+    /// The part of each value that photons on the disc around the point brought, in lx: it is known
+    /// as a mean over that disc.
+    pub merged_lx: Vec<f64>,
+    /// Radius of that disc in m; `None` for cells, and where there is none.
+    pub disc_radius_m: Vec<Option<f64>>,
+}
+
+impl UnseenLight {
+    /// Nothing is known of any point.
+    #[must_use]
+    pub fn unknown(points: usize) -> Self {
+        Self {
+            point_lx: vec![f64::INFINITY; points],
+            average_lx: f64::INFINITY,
+            merged_lx: vec![0.0; points],
+            disc_radius_m: vec![None; points],
+        }
+    }
+
+    /// Whether it has a row for each point.
+    pub(crate) fn has_points(&self, points: usize) -> bool {
+        [self.point_lx.len(), self.merged_lx.len(), self.disc_radius_m.len()] == [points; 3]
+    }
+
+    /// That of some of its points: of their average no more is known than of each.
+    pub(crate) fn part(&self, points: Range<usize>) -> Self {
+        let point_lx = self.point_lx[points.clone()].to_vec();
+        Self {
+            average_lx: mean(&point_lx),
+            point_lx,
+            merged_lx: self.merged_lx[points.clone()].to_vec(),
+            disc_radius_m: self.disc_radius_m[points].to_vec(),
+        }
+    }
+
+    /// Takes some points from another; nothing is known of them where that has no bound.
+    pub(crate) fn replace(&mut self, points: &[bool], other: Option<&Self>) {
+        for (point, _) in points.iter().enumerate().filter(|(_, taken)| **taken) {
+            self.point_lx[point] = other.map_or(f64::INFINITY, |other| other.point_lx[point]);
+            self.merged_lx[point] = other.map_or(0.0, |other| other.merged_lx[point]);
+            self.disc_radius_m[point] = other.and_then(|other| other.disc_radius_m[point]);
+        }
+        if points.contains(&true) {
+            self.average_lx = mean(&self.point_lx);
+        }
+    }
+}
+
+/// A bound for one of `points` points, times this, holds for all of them at once: ln(1/d) becomes
+/// ln(m/d).
+#[must_use]
+pub(crate) fn factor_of_all(points: usize) -> f64 {
+    let miss = 1.0 - UNSEEN_CONFIDENCE;
+    libm::log(points.max(1) as f64 / miss) / libm::log(1.0 / miss)
+}
+
+fn mean(lx: &[f64]) -> f64 {
+    if lx.is_empty() { 0.0 } else { lx.iter().sum::<f64>() / lx.len() as f64 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn two() -> UnseenLight {
+        UnseenLight {
+            point_lx: vec![0.2, 0.4],
+            average_lx: 0.05,
+            merged_lx: vec![0.0, 3.0],
+            disc_radius_m: vec![Some(0.1), None],
+        }
+    }
+
+    #[test]
+    fn parts_and_replacements_claim_no_more_than_their_points() {
+        assert_eq!(two().part(1..2).average_lx, 0.4);
+        assert_eq!(two().part(1..2).merged_lx, [3.0]);
+        assert!(two().has_points(2) && !two().has_points(1));
+        let mut replaced = two();
+        replaced.replace(&[false, false], None);
+        assert_eq!(replaced, two());
+        replaced.replace(&[true, false], Some(&UnseenLight::unknown(2).part(0..2)));
+        assert_eq!(replaced.point_lx, [f64::INFINITY, 0.4]);
+        assert_eq!(replaced.average_lx, f64::INFINITY);
+        assert_eq!(replaced.disc_radius_m, [None, None]);
+    }
+
+    /// ln(196 / 0.05) = 8.27: the bound in W where 196 points are to hold at once.
+    #[test]
+    fn many_points_widen_the_bound_by_a_logarithm() {
+        let one = libm::log(20.0);
+        assert!((factor_of_all(196) * one - 8.274).abs() < 1e-3);
+        assert!((factor_of_all(1) - 1.0).abs() < 1e-12 && factor_of_all(0) == factor_of_all(1));
+    }
+}
