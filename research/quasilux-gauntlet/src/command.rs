@@ -9,8 +9,10 @@ use crate::report::{Report, Subject};
 use crate::room::Room;
 use crate::room_of;
 use crate::trial::Stage;
+use crate::truth::{self, DiscReferences, Truth};
 use quasilux_transport::Settings;
 use std::fs;
+use std::io;
 use std::path::Path;
 
 /// Fewer references than this judge nothing, where they are the only ones: a share of the rooms.
@@ -65,7 +67,7 @@ fn write_projects(effort: &Effort) -> Result<(), String> {
 }
 
 fn measured(effort: &Effort) -> Result<bool, String> {
-    let failed = |error: std::io::Error| format!("{}: {error}", effort.out.display());
+    let failed = |error: io::Error| format!("{}: {error}", effort.out.display());
     fs::create_dir_all(&effort.out).map_err(failed)?;
     let rooms = rooms(effort);
     let (mut references, mut rooms_left_out) = (Vec::new(), Vec::new());
@@ -92,9 +94,10 @@ fn measured(effort: &Effort) -> Result<bool, String> {
     let is_known = |room: &&Room| references.iter().any(|it| it.digest == room.digest());
     let known: Vec<&Room> = rooms.iter().filter(is_known).collect();
     let runs = all_runs(effort, &known)?;
+    let truths = truths(&store, &known, references, &runs).map_err(failed)?;
     let report = Report::new(&Subject {
         runs: &runs,
-        references: &references,
+        truths: &truths,
         estimators: &effort.estimators,
         limits_s: &effort.limits_s,
         rooms_left_out: &rooms_left_out,
@@ -108,10 +111,31 @@ fn measured(effort: &Effort) -> Result<bool, String> {
     Ok(report.holds && are_enough)
 }
 
+/// The references, and those of the discs over which runs blur.
+fn truths(
+    store: &ReferenceStore,
+    rooms: &[&Room],
+    references: Vec<RoomReferences>,
+    runs: &[RunRecord],
+) -> io::Result<Vec<Truth>> {
+    let truth = |points: RoomReferences| {
+        let room = rooms.iter().find(|room| room.digest() == points.digest);
+        let radii_m = truth::blurred_places(runs, &points.digest, points.points.len());
+        let is_blurred = radii_m.iter().any(Option::is_some);
+        let Some(room) = room.filter(|_| is_blurred) else {
+            return Ok(Truth { points, discs: None });
+        };
+        let references = store.of(&room.with_discs(&radii_m))?;
+        let discs = references.map(|references| DiscReferences { radii_m, references });
+        Ok(Truth { points, discs })
+    };
+    references.into_iter().map(truth).collect()
+}
+
 /// One run after the other: each has all threads to itself while its time counts.
 fn all_runs(effort: &Effort, rooms: &[&Room]) -> Result<Vec<RunRecord>, String> {
     let path = effort.out.join("runs.jsonl");
-    let failed = |error: std::io::Error| format!("{}: {error}", path.display());
+    let failed = |error: io::Error| format!("{}: {error}", path.display());
     let kept = record::read(&path).map_err(failed)?;
     let program = program_digest()?;
     let mut runs = Vec::new();

@@ -7,7 +7,7 @@
 use crate::chance;
 use crate::judgement::Judgement;
 use crate::record::{LookRecord, RunOutcome, RunRecord};
-use crate::references::{Reference, RoomReferences};
+use crate::truth::Truth;
 use quasilux_transport::EstimatorKind;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -54,8 +54,8 @@ pub(crate) struct Count {
     pub(crate) covered_with_bound: Share,
 }
 
-/// References by the digest of their room.
-pub(crate) type Known<'a> = BTreeMap<&'a str, &'a RoomReferences>;
+/// What values are held against, by the digest of their room.
+pub(crate) type Known<'a> = BTreeMap<&'a str, &'a Truth>;
 
 impl Count {
     pub(crate) fn new(runs: &[RunRecord], known: &Known<'_>, filter: Filter<'_>) -> Self {
@@ -65,7 +65,7 @@ impl Count {
                 && filter.family.is_none_or(|family| run.key.family == family)
         };
         for run in runs.iter().filter(is_own) {
-            let Some(references) = known.get(run.key.digest.as_str()) else { continue };
+            let Some(truth) = known.get(run.key.digest.as_str()) else { continue };
             match &run.outcome {
                 RunOutcome::Refused(_) => count.refused += 1,
                 RunOutcome::Crashed(_) => count.crashed += 1,
@@ -77,7 +77,7 @@ impl Count {
                         filter.limit_s.map_or(!look.is_repeated, |limit_s| look.limit_s == limit_s)
                     };
                     for look in looks.iter().filter(is_own) {
-                        count.add_look(look, &references.points, run.key.rel_tol);
+                        count.add_look(look, truth, run.key.rel_tol);
                     }
                     count.false_runs += u32::from(count.is_false_with_bound > before);
                 }
@@ -86,17 +86,18 @@ impl Count {
         count
     }
 
-    fn add_look(&mut self, look: &LookRecord, references: &[Reference], rel_tol: f64) {
+    fn add_look(&mut self, look: &LookRecord, truth: &Truth, rel_tol: f64) {
         self.looks += 1;
         self.done += u32::from(look.is_done);
         let mut judged = Vec::new();
-        for (point, reference) in look.points.iter().zip(references) {
+        for (place, point) in look.points.iter().enumerate() {
             self.points += 1;
-            if !reference.can_judge(rel_tol) {
+            let reference = truth.of(place, point, rel_tol);
+            let Some(reference) = reference.filter(|it| it.can_judge(rel_tol)) else {
                 self.left_out += 1;
                 continue;
-            }
-            match Judgement::new(point, reference, rel_tol) {
+            };
+            match Judgement::new(point, &reference, rel_tol) {
                 Some(judgement) => judged.push(judgement),
                 None => self.withdrawn += 1,
             }
@@ -147,6 +148,7 @@ impl Share {
 mod tests {
     use super::*;
     use crate::record::{PointRecord, RunKey};
+    use crate::references::{Reference, RoomReferences};
 
     fn look(limit_s: f64, is_repeated: bool, values: [f64; 2]) -> LookRecord {
         let point = |lx| PointRecord {
@@ -178,13 +180,16 @@ mod tests {
     fn runs_have_weight_one_and_repeated_looks_count_once() {
         let point = Reference { lx: 100.0, standard_error_lx: 0.0, is_sound: true };
         let weak = Reference { is_sound: false, ..point };
-        let of = |points: Vec<Reference>| RoomReferences {
-            family: "plain box".to_owned(),
-            number: 0,
-            digest: "d".to_owned(),
-            relative_error: 0.006,
-            seconds: 1.0,
-            points,
+        let of = |points: Vec<Reference>| Truth {
+            points: RoomReferences {
+                family: "plain box".to_owned(),
+                number: 0,
+                digest: "d".to_owned(),
+                relative_error: 0.006,
+                seconds: 1.0,
+                points,
+            },
+            discs: None,
         };
         let runs = [
             record(1, vec![look(1.0, false, [100.0, 103.0]), look(3.0, true, [100.0, 103.0])]),

@@ -28,6 +28,7 @@ mod room;
 mod shell;
 mod solids;
 pub mod trial;
+pub mod truth;
 
 pub use brute_scene::{brute_parts, brute_scene};
 pub use dice::Parameter;

@@ -4,7 +4,7 @@ use crate::chance;
 use crate::count::{Count, Filter, Known};
 use crate::families;
 use crate::record::{RunOutcome, RunRecord};
-use crate::references::RoomReferences;
+use crate::truth::Truth;
 use quasilux_transport::EstimatorKind;
 use std::fmt::Write;
 
@@ -27,8 +27,8 @@ pub struct Report {
 pub struct Subject<'a> {
     /// The runs.
     pub runs: &'a [RunRecord],
-    /// References of their rooms.
-    pub references: &'a [RoomReferences],
+    /// What they are held against.
+    pub truths: &'a [Truth],
     /// The estimators, in the order of the report.
     pub estimators: &'a [EstimatorKind],
     /// The limits in s.
@@ -48,7 +48,7 @@ impl Report {
     #[must_use]
     pub fn new(subject: &Subject<'_>) -> Self {
         let known: Known<'_> =
-            subject.references.iter().map(|it| (it.digest.as_str(), it)).collect();
+            subject.truths.iter().map(|it| (it.points.digest.as_str(), it)).collect();
         let mut markdown = "# The gauntlet\n\n".to_owned();
         let mut holds = true;
         for &estimator in subject.estimators {

@@ -93,12 +93,14 @@ impl Watch<'_> {
             (0..estimates.sensors.len()).map(|sensor| estimates.point_intervals(sensor)).collect();
         let point = |slot: &Slot| {
             let interval = intervals[slot.sensor][slot.point];
+            let unseen = estimates.sensors[slot.sensor].unseen.as_ref();
             PointRecord {
                 lx: interval.value,
                 half_width_lx: interval.half_width.filter(|half_width| half_width.is_finite()),
-                unseen_lx: None,
-                merged_lx: 0.0,
-                disc_radius_m: None,
+                // The file knows no infinity.
+                unseen_lx: unseen.map(|unseen| unseen.point_lx[slot.point].min(f64::MAX)),
+                merged_lx: unseen.map_or(0.0, |unseen| unseen.merged_lx[slot.point]),
+                disc_radius_m: unseen.and_then(|unseen| unseen.disc_radius_m[slot.point]),
             }
         };
         LookRecord {
