@@ -84,7 +84,7 @@ impl ReferenceStore {
     /// When the folder cannot be written.
     pub fn of(&self, room: &Room) -> io::Result<Option<RoomReferences>> {
         let path = self.folder.join(format!("{}.json", room.digest()));
-        let kept = kept(&path).into_iter().chain(shipped(SHIPPED)).filter(|it| it.fits(room));
+        let kept = kept(&path).into_iter().chain(shipped_references()).filter(|it| it.fits(room));
         let mut kept: Vec<RoomReferences> = kept.collect();
         let error = |it: &RoomReferences| {
             it.points.iter().filter(|point| point.is_sound).count() as f64 - it.relative_error
@@ -140,6 +140,12 @@ fn joined(halves: [Estimate; 2]) -> Reference {
     Reference { lx, standard_error_lx, is_sound }
 }
 
+/// The references that are shipped with the crate.
+#[must_use]
+pub fn shipped_references() -> Vec<RoomReferences> {
+    shipped(SHIPPED).collect()
+}
+
 fn kept(path: &Path) -> Option<RoomReferences> {
     serde_json::from_str(&fs::read_to_string(path).ok()?).ok()
 }
@@ -170,7 +176,7 @@ mod tests {
 
     #[test]
     fn shipped_references_are_of_rooms_that_are_made() {
-        for known in shipped(SHIPPED) {
+        for known in shipped_references() {
             let room = crate::room_of(&known.family, known.number);
             assert!(
                 room.is_some_and(|room| known.fits(&room)),

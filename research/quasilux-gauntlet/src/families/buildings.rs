@@ -85,6 +85,7 @@ pub(crate) fn stairs(dice: &mut Dice) -> Room {
     room.add_place(DVec3::new(0.5, 0.5 * width, 0.0), DVec3::Z);
     room.add_place(DVec3::new(0.0, 0.5 * width, 1.2), DVec3::X);
     room.add_place(DVec3::new(0.6, 0.5 * width, 1.5), DVec3::NEG_X);
+    room.add_place(DVec3::new(length - 0.3, 0.7 * width, top), DVec3::Z);
     room
 }
 
