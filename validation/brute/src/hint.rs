@@ -34,7 +34,7 @@ impl Lookout {
     }
 
     /// The same for all places.
-    pub(crate) const fn from_everywhere(self) -> Self {
+    pub(crate) const fn seen_everywhere(self) -> Self {
         Self { within: [DVec3::NEG_INFINITY, DVec3::INFINITY], ..self }
     }
 

@@ -8,6 +8,9 @@ use crate::vertex::{Looking, Scatter, Vertex};
 use crate::world::World;
 use glam::DVec3;
 
+/// Places so near to an aim lie on it.
+const SLACK_M: f64 = 1e-6;
+
 impl<'a> World<'a> {
     /// What one path finds, in lx. Without what point lights give directly where the sensor is a
     /// point: [`Self::direct_point_lx`] gives that without chance.
@@ -45,10 +48,12 @@ impl<'a> World<'a> {
         value / pdf * weight * (points + self.path_from(vertex, 1, random))
     }
 
-    /// Whether a straight way from a place goes through an aim before its end.
+    /// Whether a straight way from a place goes through an aim before its end. Aims that the place or
+    /// the end lies on do not count, from whichever end the way is seen.
     pub(crate) fn is_through_aim(&self, place: DVec3, direction: DVec3, far_m: f64) -> bool {
-        let crossings = self.scene.aims.iter().filter_map(|aim| aim.crossing_m(place, direction));
-        crossings.into_iter().any(|at_m| at_m > 0.0 && at_m < far_m)
+        let mut crossings =
+            self.scene.aims.iter().filter_map(|aim| aim.crossing_m(place, direction));
+        crossings.any(|at_m| at_m > SLACK_M && at_m < far_m - SLACK_M)
     }
 
     /// What comes to a vertex, but for the direct light of point lights; `bounces` led to it.

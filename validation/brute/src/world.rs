@@ -125,7 +125,7 @@ impl<'a> World<'a> {
             metal_of,
             emissions: scene.lights.iter().map(Emission::new).collect(),
             emitters,
-            keyholes: scene.aims.iter().map(|aim| aim.from_everywhere()).collect(),
+            keyholes: scene.aims.iter().map(|aim| aim.seen_everywhere()).collect(),
             pdf_per_m2: scene.triangles.iter().map(pdf).collect(),
             emitted_lm: std::f64::consts::PI * total,
             middle,
