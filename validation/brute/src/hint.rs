@@ -33,6 +33,11 @@ impl Lookout {
         Self { within: [low - MARGIN_M, high + MARGIN_M], ..self }
     }
 
+    /// The same for all places.
+    pub(crate) const fn seen_everywhere(self) -> Self {
+        Self { within: [DVec3::NEG_INFINITY, DVec3::INFINITY], ..self }
+    }
+
     /// A parallelogram far away that covers the disk of a half angle about a unit direction: for the
     /// sun, and for where mirrors show it.
     #[must_use]

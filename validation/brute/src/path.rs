@@ -6,39 +6,88 @@ use crate::roulette::survive;
 use crate::sensor::Sensor;
 use crate::vertex::{Looking, Scatter, Vertex};
 use crate::world::World;
+use glam::DVec3;
+
+/// Places so near to an aim lie on it.
+const SLACK_M: f64 = 1e-6;
 
 impl<'a> World<'a> {
     /// What one path finds, in lx. Without what point lights give directly where the sensor is a
     /// point: [`Self::direct_point_lx`] gives that without chance.
     pub(crate) fn path_lx(&self, sensor: &Sensor, random: &mut Xoshiro) -> f64 {
-        let mut vertex = self.eye(sensor, random);
-        let (mut lx, mut beta, mut bounces) = (0.0, 1.0, 0);
+        let eye = self.eye(sensor, random);
+        let points_lx = if sensor.has_area() { self.light_of_points(&eye, random) } else { 0.0 };
+        points_lx + self.path_from(eye, 0, random)
+    }
+
+    /// The same of the light alone whose last vertex is seen through an aim, straight or straight
+    /// through panes.
+    pub(crate) fn aimed_path_lx(&self, sensor: &Sensor, random: &mut Xoshiro) -> f64 {
+        let through = Looking { at: &self.keyholes, share: 1.0 };
+        let eye = Vertex::new(sensor.place(random), sensor.normal, Scatter::Cosine, through);
+        if eye.share() == 0.0 {
+            return 0.0;
+        }
+        let direction = eye.sample(random);
+        let value = eye.value(direction);
+        if value <= 0.0 {
+            return 0.0;
+        }
+        let pdf = eye.pdf(direction);
+        let way = (Followed::Luminance, &mut *random);
+        let arrival = self.follow(eye.position, direction, way, |_| ());
+        let arrival = arrival.filter(|it| {
+            !it.is_bent && self.is_through_aim(eye.position, direction, it.distance_m)
+        });
+        let Some((weight, vertex)) =
+            arrival.and_then(|it| Some((it.weight, self.vertex_at(&it, self.hints(1))?)))
+        else {
+            return 0.0;
+        };
+        let points = self.light_of_points(&vertex, random);
+        value / pdf * weight * (points + self.path_from(vertex, 1, random))
+    }
+
+    /// Whether a straight way from a place goes through an aim before its end. Aims that the place or
+    /// the end lies on do not count, from whichever end the way is seen.
+    pub(crate) fn is_through_aim(&self, place: DVec3, direction: DVec3, far_m: f64) -> bool {
+        let mut crossings =
+            self.scene.aims.iter().filter_map(|aim| aim.crossing_m(place, direction));
+        crossings.any(|at_m| at_m > SLACK_M && at_m < far_m - SLACK_M)
+    }
+
+    /// What comes to a vertex, but for the direct light of point lights; `bounces` led to it.
+    fn path_from<'w>(
+        &'w self,
+        mut vertex: Vertex<'w>,
+        mut bounces: u32,
+        random: &mut Xoshiro,
+    ) -> f64 {
+        let (mut found, mut beta) = (0.0, 1.0);
         loop {
-            if bounces > 0 || sensor.has_area() {
-                lx += beta * self.light_of_points(&vertex, random);
-            }
-            lx += beta * self.light_of_emitters(&vertex, random);
-            lx += beta * self.light_of_sun(&vertex, random);
+            found += beta * self.light_of_emitters(&vertex, random);
+            found += beta * self.light_of_sun(&vertex, random);
             let direction = vertex.sample(random);
             let value = vertex.value(direction);
             if value <= 0.0 {
-                return lx;
+                return found;
             }
             let pdf = vertex.pdf(direction);
             let way = (Followed::Luminance, &mut *random);
             let Some(arrival) = self.follow(vertex.position, direction, way, |_| ()) else {
-                return lx;
+                return found;
             };
             beta *= value / pdf * arrival.weight;
-            lx += beta * self.luminance_met(&arrival, pdf);
+            found += beta * self.luminance_met(&arrival, pdf);
             bounces += 1;
             let Some(mut next) = self.vertex_at(&arrival, self.hints(bounces)) else {
-                return lx;
+                return found;
             };
             let Some(gain) = survive(&mut next, bounces, random) else {
-                return lx;
+                return found;
             };
             beta *= gain;
+            found += beta * self.light_of_points(&next, random);
             vertex = next;
         }
     }

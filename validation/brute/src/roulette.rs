@@ -14,10 +14,10 @@ pub(crate) fn survive(vertex: &mut Vertex, bounces: u32, random: &mut Xoshiro) -
     if bounces <= SURE_BOUNCES {
         return Some(1.0);
     }
-    // Weights of a surface's own directions grow by 1 / (1 - share): the square of what it keeps
-    // keeps the second moment of long paths finite.
+    // Weights of a surface's own directions are kept / ((1 - share) survival): half of what makes
+    // their second moment grow keeps long paths from ruling the sum.
     let kept = vertex.scatter.kept();
-    vertex.limit_share(1.0 - kept * kept);
+    vertex.limit_share(0.5 * (1.0 - kept * kept));
     let [least, most] = SURVIVAL;
     let survival = (kept / (1.0 - vertex.share())).clamp(least, most);
     (random.uniform() < survival).then_some(1.0 / survival)

@@ -5,6 +5,7 @@ use crate::light::PointLight;
 use crate::sensor::Sensor;
 use crate::sky::{Sky, Sun};
 use crate::triangle::Triangle;
+use glam::DVec3;
 
 /// A scene; lengths in m, +z is up.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -30,6 +31,11 @@ pub struct Scene {
     /// The share of their directions that go there, from the light and from each surface that
     /// scatters; at least 0, less than 1.
     pub aim_share: f64,
+    /// Boxes by two corners where walks are worth more: a walk that turns in more of them than
+    /// before goes on as [`Self::copies`] walks for each, of less flux.
+    pub depths: Vec<[DVec3; 2]>,
+    /// How many; 0 and 1 leave a walk as it is.
+    pub copies: u32,
     /// Parallelograms with `u x v` toward the outside. Where there are any, walks from sky and sun
     /// start along lines through them alone, and light along all other lines is left out: they must
     /// cover every way in. Where there are none, walks start from a sphere around everything.
@@ -54,6 +60,12 @@ impl Scene {
     pub(crate) fn share_of_hints(&self, bounces: u32) -> f64 {
         let falling = (0..bounces.min(32)).fold(self.hint_share, |share, _| share / 1.5);
         falling.max(self.late_hint_share.min(self.hint_share))
+    }
+
+    /// In how many of the boxes a place is.
+    pub(crate) fn depth(&self, place: DVec3) -> usize {
+        let holds = |[low, high]: &&[DVec3; 2]| place.cmpge(*low).all() && place.cmple(*high).all();
+        self.depths.iter().filter(holds).count()
     }
 
     /// Everything that shines in it, one by one.

@@ -76,8 +76,8 @@ impl Starts {
                 let weight = triangle.luminance_cd_m2 / world.pdf_per_m2[number];
                 Some(Start::Within { vertex, weight })
             }
-            Source::Sky => world.scene.sky.and_then(|sky| world.from_sky(&sky, random)),
-            Source::Sun => world.scene.sun.and_then(|sun| world.from_sun(&sun, random)),
+            Source::Sky => world.scene.sky.and_then(|sky| world.start_of_sky(&sky, random)),
+            Source::Sun => world.scene.sun.and_then(|sun| world.start_of_sun(&sun, random)),
         }?;
         match &mut start {
             Start::Within { weight, .. } => *weight /= probability,
@@ -114,7 +114,7 @@ impl<'a> World<'a> {
         }
     }
 
-    fn from_sky(&self, sky: &Sky, random: &mut Xoshiro) -> Option<Start<'a>> {
+    fn start_of_sky(&self, sky: &Sky, random: &mut Xoshiro) -> Option<Start<'a>> {
         let openings = &self.scene.openings;
         if openings.is_empty() {
             let z = 2.0 * random.uniform() - 1.0;
@@ -130,10 +130,10 @@ impl<'a> World<'a> {
         let place = opening.place([random.uniform(), random.uniform()]);
         // q is cos / pi, by which the projected area grows again.
         let flux_lm = PI * all * sky.luminance_cd_m2(toward) / self.crossed(place, toward);
-        Some(self.from_far(place, toward, flux_lm))
+        Some(self.start_far_off(place, toward, flux_lm))
     }
 
-    fn from_sun(&self, sun: &Sun, random: &mut Xoshiro) -> Option<Start<'a>> {
+    fn start_of_sun(&self, sun: &Sun, random: &mut Xoshiro) -> Option<Start<'a>> {
         let openings = &self.scene.openings;
         let toward = sun.sample(random);
         let spread = sun.luminance_cd_m2() * Sun::solid_angle_sr();
@@ -144,7 +144,7 @@ impl<'a> World<'a> {
         let all: f64 = openings.iter().map(area).sum();
         let place = chosen(openings, area, random)?.place([random.uniform(), random.uniform()]);
         let flux_lm = spread * all / self.crossed(place, toward);
-        Some(self.from_far(place, toward, flux_lm))
+        Some(self.start_far_off(place, toward, flux_lm))
     }
 
     /// How many openings a line comes in through.
@@ -163,10 +163,10 @@ impl<'a> World<'a> {
         let (sin, cos) = libm::sincos(TAU * random.uniform());
         let (s, t) = toward.any_orthonormal_pair();
         let place = self.middle + s * (radius * cos) + t * (radius * sin);
-        self.from_far(place, toward, spread * PI * self.radius_m * self.radius_m)
+        self.start_far_off(place, toward, spread * PI * self.radius_m * self.radius_m)
     }
 
-    fn from_far(&self, place: DVec3, toward: DVec3, flux_lm: f64) -> Start<'a> {
+    fn start_far_off(&self, place: DVec3, toward: DVec3, flux_lm: f64) -> Start<'a> {
         Start::Outside {
             origin: place + toward * (2.0 * self.radius_m),
             direction: -toward,

@@ -1,6 +1,7 @@
 //! A scene made ready: what rays meet, and how they go on.
 
 use crate::emission::Emission;
+use crate::hint::Lookout;
 use crate::metal::Metal;
 use crate::optics::{Followed, send_on, through_pane};
 use crate::random::Xoshiro;
@@ -27,6 +28,8 @@ pub(crate) struct World<'a> {
     /// Of the point lights.
     pub(crate) emissions: Vec<Emission>,
     pub(crate) emitters: Vec<Emitter>,
+    /// The aims, for sensors that look back through them.
+    pub(crate) keyholes: Vec<Lookout>,
     /// Of a triangle, the density in area that it is chosen with as a light.
     pub(crate) pdf_per_m2: Vec<f64>,
     /// Of all emitting triangles.
@@ -122,6 +125,7 @@ impl<'a> World<'a> {
             metal_of,
             emissions: scene.lights.iter().map(Emission::new).collect(),
             emitters,
+            keyholes: scene.aims.iter().map(|aim| aim.seen_everywhere()).collect(),
             pdf_per_m2: scene.triangles.iter().map(pdf).collect(),
             emitted_lm: std::f64::consts::PI * total,
             middle,
@@ -187,27 +191,6 @@ impl<'a> World<'a> {
             ray.farthest_m -= hit.distance_m;
         }
         passed
-    }
-
-    /// What a ray comes to straight or straight through panes, and the share that passes these.
-    pub(crate) fn straight(&self, origin: DVec3, direction: DVec3) -> (Arrival, f64) {
-        let mut ray = Ray { origin, direction, nearest_m: GAP_M, farthest_m: f64::INFINITY };
-        let (mut passed, mut distance_m) = (1.0, 0.0);
-        let mut met = None;
-        while let Some(hit) = self.tree.nearest(&self.scene.triangles, ray) {
-            let triangle = &self.scene.triangles[hit.triangle];
-            let front = triangle.double_area().normalize();
-            ray.origin += direction * hit.distance_m;
-            distance_m += hit.distance_m;
-            if let Surface::Pane { eta, tint } = triangle.surface {
-                passed *= through_pane(direction.dot(front), eta, tint);
-                continue;
-            }
-            met = Some(Met { triangle: hit.triangle, position: ray.origin, front });
-            break;
-        }
-        let (weight, is_bent) = (1.0, false);
-        (Arrival { direction, met, weight, is_bent, distance_m }, passed)
     }
 
     /// The vertex where something arrived, unless light ends there.

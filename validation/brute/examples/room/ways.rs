@@ -8,9 +8,11 @@
 //! hints = [{ corner = [0, 0, 0], u = [1, 0, 0], v = [0, 1, 0] }, { sun = 0.4 }]
 //! aims = []
 //! openings = []
+//! depths = [[[0, 0, 0], [1, 1, 1]]]    # boxes where walks are copied
+//! copies = 4.0
 //! [[parts]]
 //! sources = ["0", "1", "emitters", "sky", "sun"]    # or "lights", all of them
-//! mode = "paths"                  # or "joins", "beams", "photons"
+//! mode = "paths"                  # or "joins", "beams", "keyholes", "photons"
 //! ```
 //!
 //! A lookout is a parallelogram, with `low` and `high` for the box that looks there, or the sun with
@@ -36,6 +38,13 @@ impl Ways {
         scene.hints = lookouts(&table, "hints", scene)?;
         scene.aims = lookouts(&table, "aims", scene)?;
         scene.openings = lookouts(&table, "openings", scene)?;
+        scene.copies = share("copies") as u32;
+        let boxes = table.get("depths").and_then(Value::as_array);
+        for depth in boxes.into_iter().flatten() {
+            let corner = |number| depth.get(number).and_then(as_vector);
+            let corners = corner(0).zip(corner(1)).ok_or("a depth is a box by two corners")?;
+            scene.depths.push([corners.0, corners.1]);
+        }
         let disc_radius_m = share("disc_radius_m");
         for sensor in &mut scene.sensors {
             if !matches!(sensor.extent, Extent::Cell { .. }) {
@@ -70,8 +79,9 @@ fn part(part: &Value, scene: &Scene) -> Result<Part, String> {
         Some("paths") => Mode::Paths,
         Some("joins") => Mode::Joins,
         Some("beams") => Mode::BeamsAndJoins,
+        Some("keyholes") => Mode::KeyholesAndJoins,
         Some("photons") => Mode::Photons,
-        _ => return Err("mode is paths, joins, beams or photons".to_owned()),
+        _ => return Err("mode is paths, joins, beams, keyholes or photons".to_owned()),
     };
     let mut sources = Vec::new();
     for name in part.get("sources").and_then(Value::as_array).into_iter().flatten() {

@@ -102,9 +102,26 @@ fn aims_do_not_change_the_mean() {
     scene.aim_share = 0.4;
     let aimed = solve_by(&scene, Mode::Joins, 100_000, 2);
     let counted = solve_by(&scene, Mode::Photons, 100_000, 3);
-    for other in [aimed, counted] {
+    let beams = solve_by(&scene, Mode::BeamsAndJoins, 100_000, 4);
+    let keyholes = solve_by(&scene, Mode::KeyholesAndJoins, 100_000, 5);
+    for other in [aimed, counted, beams, keyholes] {
         let most = largest_disagreement(&plain, &other);
         assert!(most < 5.0, "{most} {plain:?} {other:?}");
+    }
+}
+
+/// Copies do neither.
+#[test]
+fn copies_do_not_change_the_mean() {
+    let mut scene = crowded();
+    let plain = solve_by(&scene, Mode::Joins, 100_000, 1);
+    let high = DVec3::splat(3.0);
+    scene.depths = vec![[DVec3::new(1.0, 0.0, 0.0), high], [DVec3::new(0.5, 1.0, 0.0), high]];
+    scene.copies = 3;
+    for mode in WALKS {
+        let copied = solve_by(&scene, mode, 50_000, 2);
+        let most = largest_disagreement(&plain, &copied);
+        assert!(most < 5.0, "{mode:?} {most} {plain:?} {copied:?}");
     }
 }
 
