@@ -32,6 +32,7 @@ pub fn brute_scene(room: &Room) -> brute::Scene {
         aims: room.aims.iter().map(lookout).collect(),
         aim_share: room.aim_share,
         openings: room.ways_in.iter().map(opening).collect(),
+        ..brute::Scene::default()
     }
 }
 
@@ -48,6 +49,7 @@ pub fn brute_parts(room: &Room, scene: &brute::Scene) -> Vec<Part> {
         Found::Paths => Mode::Paths,
         Found::Joins => Mode::Joins,
         Found::BeamsAndJoins => Mode::BeamsAndJoins,
+        Found::KeyholesAndJoins => Mode::KeyholesAndJoins,
         Found::Photons => Mode::Photons,
     };
     let sources = scene.sources();

@@ -182,13 +182,16 @@ pub enum Found {
     Joins,
     /// The same, and light that comes straight to a cell is counted as well.
     BeamsAndJoins,
+    /// As by walks that are joined, and through aims by paths from the sensors.
+    KeyholesAndJoins,
     /// By walks that are counted on cells and discs alone.
     Photons,
 }
 
 impl Found {
     /// All ways.
-    pub const ALL: [Self; 4] = [Self::Paths, Self::Joins, Self::BeamsAndJoins, Self::Photons];
+    pub const ALL: [Self; 5] =
+        [Self::Paths, Self::Joins, Self::BeamsAndJoins, Self::KeyholesAndJoins, Self::Photons];
 
     /// In a few words.
     #[must_use]
@@ -197,6 +200,7 @@ impl Found {
             Self::Paths => "paths",
             Self::Joins => "walks joined to sensors",
             Self::BeamsAndJoins => "walks joined and counted",
+            Self::KeyholesAndJoins => "walks joined, paths through keyholes",
             Self::Photons => "walks counted",
         }
     }

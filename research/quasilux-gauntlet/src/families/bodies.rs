@@ -43,6 +43,7 @@ pub(crate) fn keyhole_ball(dice: &mut Dice) -> Room {
     room.add_downlight(DVec3::new(1.2, 5.5, 2.5), intensity_cd);
     room.add_downlight(DVec3::new(2.8, 6.5, 2.5), intensity_cd);
     room.find_all(Found::Joins);
+    room.lamps[1..].iter_mut().for_each(|lamp| lamp.found = Found::BeamsAndJoins);
     let Block { low, high } = bright;
     room.aims.push(Lookout { shape: hole.at(4.05), low, high });
     room.aim_share = 0.5;
