@@ -141,6 +141,17 @@ fn by_limit(text: &mut String, limits_s: &[f64], count: &Counting<'_>) {
 }
 
 fn claims(subject: &Subject<'_>, count: &Counting<'_>) -> Vec<Claim> {
+    let mut claims = claims_of_falsehood(count);
+    claims.extend(subject.limits_s.iter().flat_map(|&limit_s| claims_of_coverage(limit_s, count)));
+    let crashed = count(None, None).crashed;
+    if crashed > 0 {
+        claims.push(Claim { text: format!("{crashed} runs crashed"), holds: false });
+    }
+    claims
+}
+
+/// False intervals are as rare as by chance, in all families together and in each.
+fn claims_of_falsehood(count: &Counting<'_>) -> Vec<Claim> {
     let all = count(None, None);
     let probability = all.probability();
     let mut claims = vec![Claim {
@@ -167,37 +178,38 @@ fn claims(subject: &Subject<'_>, count: &Counting<'_>) -> Vec<Claim> {
             claims.push(Claim { text, holds: false });
         }
     }
-    for &limit_s in subject.limits_s {
-        let own = count(None, Some(limit_s));
-        let both = own.covered_with_bound;
-        if both.runs >= FEW_RUNS {
-            let least = COVERED_WITH_BOUND - 2.0 * chance::deviation(COVERED_WITH_BOUND, both.runs);
-            let text = format!(
-                "at {limit_s} s both numbers cover {} in {} runs, at least {} is wanted",
-                per_cent(both.value()),
-                both.runs,
-                per_cent(least)
-            );
-            claims.push(Claim { text, holds: both.value() >= least });
-        }
-        let alone = own.covered;
-        if alone.runs >= FEW_RUNS {
-            let [least, most] = COVERED;
-            let least = least - 2.0 * chance::deviation(least, alone.runs);
-            let most = most + 2.0 * chance::deviation(most, alone.runs);
-            let text = format!(
-                "at {limit_s} s the half-width alone covers {} in {} runs where little is unseen, \
-                 {} to {} is wanted",
-                per_cent(alone.value()),
-                alone.runs,
-                per_cent(least),
-                per_cent(most.min(1.0))
-            );
-            claims.push(Claim { text, holds: (least..=most).contains(&alone.value()) });
-        }
+    claims
+}
+
+/// What both numbers and the half-width alone cover at a limit, two binomial deviations allowed.
+fn claims_of_coverage(limit_s: f64, count: &Counting<'_>) -> Vec<Claim> {
+    let own = count(None, Some(limit_s));
+    let mut claims = Vec::new();
+    let both = own.covered_with_bound;
+    if both.runs >= FEW_RUNS {
+        let least = COVERED_WITH_BOUND - 2.0 * chance::deviation(COVERED_WITH_BOUND, both.runs);
+        let text = format!(
+            "at {limit_s} s both numbers cover {} in {} runs, at least {} is wanted",
+            per_cent(both.value()),
+            both.runs,
+            per_cent(least)
+        );
+        claims.push(Claim { text, holds: both.value() >= least });
     }
-    if all.crashed > 0 {
-        claims.push(Claim { text: format!("{} runs crashed", all.crashed), holds: false });
+    let alone = own.covered;
+    if alone.runs >= FEW_RUNS {
+        let [least, most] = COVERED;
+        let least = least - 2.0 * chance::deviation(least, alone.runs);
+        let most = most + 2.0 * chance::deviation(most, alone.runs);
+        let text = format!(
+            "at {limit_s} s the half-width alone covers {} in {} runs where little is unseen, {} \
+             to {} is wanted",
+            per_cent(alone.value()),
+            alone.runs,
+            per_cent(least),
+            per_cent(most.min(1.0))
+        );
+        claims.push(Claim { text, holds: (least..=most).contains(&alone.value()) });
     }
     claims
 }
