@@ -3,7 +3,7 @@
 //! [`steps`] is the test command, [`python`], [`examples`], [`cluster`] and [`documents`] its last
 //! steps, [`office`] and [`weather`] the generators behind `examples/office/` and
 //! `examples/daylight-office/`, [`cie171`] and [`octant`] those of cases in `validation/`,
-//! [`experiments`] that of `docs/experiments.md`. The rules that no compiler checks are in
+//! [`experiments`] that of `docs/experiments.md`, [`gauntlet`] builds and runs `quasilux-gauntlet`. The rules that no compiler checks are in
 //! `tests/architecture/`.
 
 mod arrows;
@@ -14,6 +14,7 @@ mod examples;
 mod expectation;
 mod experiments;
 mod figures;
+mod gauntlet;
 mod generated;
 mod octant;
 mod office;
@@ -40,6 +41,7 @@ cargo xtask test docs      documentation, warnings denied
 cargo xtask test package   the crates to publish build from their packages
 cargo xtask test python    the Python package: wheel, tests, types, documentation
 cargo xtask test examples  every example runs and gives the numbers it promises
+cargo xtask test gauntlet  a short part of the gauntlet, whose references are shipped
 cargo xtask test documents every command of the documentation runs and prints what it shows
 cargo xtask test deep      all tests, in variants that take long and find smaller errors
 cargo xtask arrows CRATE   imports between the modules of a crate that no order allows
@@ -52,6 +54,7 @@ cargo xtask octant         write the mirror octant in validation/ from its gener
 cargo xtask office         write examples/office/ from its generator
 cargo xtask weather        write the weather of examples/daylight-office/ from its generator
 cargo xtask cie171         write the cases of CIE 171:2006 in validation/ from their generator
+cargo xtask gauntlet ..    hard rooms at random against a reference; --help lists its options
 cargo xtask experiments    write docs/experiments.md from what the experiments wrote
 cargo xtask pictures       write the pictures of the documentation from the commands beside them
 cargo xtask help           this text
@@ -74,6 +77,7 @@ fn main() -> ExitCode {
         ["ratchet", "new"] => xtask::ratchet::write(&workspace_root(), true),
         ["figures"] => figures::print(&workspace_root()),
         ["figures", path] => figures::print(Path::new(path)),
+        ["gauntlet", ref options @ ..] => gauntlet::run(&workspace_root(), options),
         ["cie171"] => cie171::write(&workspace_root()),
         ["experiments"] => experiments::write(&workspace_root()),
         ["pictures"] => documents::draw(&workspace_root()),

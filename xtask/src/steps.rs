@@ -1,6 +1,6 @@
 //! The steps of the test command, in the order in which they are cheapest to fail.
 
-use crate::{documents, examples, python, same_bits};
+use crate::{documents, examples, gauntlet, python, same_bits};
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::process::Command;
@@ -13,7 +13,7 @@ struct Step {
     run: fn() -> Result<(), Failure>,
 }
 
-const STEPS: [Step; 8] = [
+const STEPS: [Step; 9] = [
     Step { name: "fmt", run: check_format },
     Step {
         name: "clippy",
@@ -28,6 +28,7 @@ const STEPS: [Step; 8] = [
     Step { name: "package", run: package_crates },
     Step { name: "python", run: || python::check(&workspace_root()) },
     Step { name: "examples", run: || examples::run_all(&workspace_root()) },
+    Step { name: "gauntlet", run: || gauntlet::run_quick(&workspace_root()) },
 ];
 
 /// Every command of the documentation, some of which take minutes; left out by [`run_all`].

@@ -19,7 +19,6 @@ mod emission;
 mod error_plot;
 mod first_shot;
 mod flights;
-pub mod gauntlet;
 mod markdown;
 mod neumann;
 mod octant;
@@ -33,7 +32,7 @@ mod timing;
 pub use outcome::{Options, Outcome, PictureFile};
 
 /// All experiments.
-pub static EXPERIMENTS: [Experiment; 11] = [
+pub static EXPERIMENTS: [Experiment; 10] = [
     Experiment {
         name: "cube",
         shows: "the diffuse cube, tables 4 and 5 of the paper",
@@ -70,12 +69,6 @@ pub static EXPERIMENTS: [Experiment; 11] = [
         shows: "how often the intervals hold the truth",
         takes: &[SEEDS],
         run: coverage::run,
-    },
-    Experiment {
-        name: "gauntlet",
-        shows: "hard rooms against a brute-force reference",
-        takes: ALL,
-        run: gauntlet::run,
     },
     Experiment {
         name: "octant",

@@ -1,7 +1,6 @@
 //! Point lights, and how they shine.
 
 use glam::DVec3;
-use std::f64::consts::PI;
 
 /// A point that shines the same all round its aim.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,29 +44,27 @@ impl PointLight {
     /// The intensity in a unit direction, in cd.
     #[must_use]
     pub fn intensity_cd(&self, direction: DVec3) -> f64 {
-        self.candela.toward(self.aim.dot(direction).clamp(-1.0, 1.0))
+        let sine = self.aim.cross(direction).length();
+        self.candela.at_angle(libm::atan2(sine, self.aim.dot(direction)))
     }
 }
 
 impl Candela {
-    fn toward(&self, cos: f64) -> f64 {
+    /// The intensity at an angle from the aim, in cd.
+    pub(crate) fn at_angle(&self, gamma_rad: f64) -> f64 {
         match self {
             Self::Constant(intensity_cd) => *intensity_cd,
-            Self::Cosine(intensity_cd) => intensity_cd * cos.max(0.0),
+            Self::Cosine(intensity_cd) => intensity_cd * libm::cos(gamma_rad).max(0.0),
             Self::Cone { intensity_cd, half_angle_rad } => {
-                if cos >= libm::cos(*half_angle_rad) {
+                if gamma_rad <= *half_angle_rad {
                     *intensity_cd
                 } else {
                     0.0
                 }
             }
-            Self::Table(rows) => interpolated(rows, gamma_rad(cos)),
+            Self::Table(rows) => interpolated(rows, gamma_rad),
         }
     }
-}
-
-fn gamma_rad(cos: f64) -> f64 {
-    libm::acos(cos).min(PI)
 }
 
 fn interpolated(rows: &[CandelaRow], gamma_rad: f64) -> f64 {

@@ -1,5 +1,7 @@
-//! Triangles, what they are made of, and where a ray meets them.
+//! Triangles, and where a ray meets them.
 
+use crate::random::Xoshiro;
+use crate::surface::Surface;
 use glam::DVec3;
 
 /// A triangle, its front where its corners run counter-clockwise.
@@ -7,27 +9,10 @@ use glam::DVec3;
 pub struct Triangle {
     /// The corners in m.
     pub corners: [DVec3; 3],
-    /// How it reflects.
+    /// How it scatters light.
     pub surface: Surface,
     /// Luminance of the front in cd/m^2, the same in all directions; 0 where it does not shine.
     pub luminance_cd_m2: f64,
-}
-
-/// How a triangle reflects.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Surface {
-    /// Lambertian reflection.
-    Grey {
-        /// Reflected over incident flux.
-        reflectance: f64,
-        /// Whether the back reflects as the front does; else it is black.
-        two_sided: bool,
-    },
-    /// A perfect mirror on both sides.
-    Mirror {
-        /// Reflected over incident flux.
-        reflectance: f64,
-    },
 }
 
 /// A ray: a unit direction, and between which distances it looks.
@@ -49,6 +34,14 @@ impl Triangle {
     /// The area in m^2.
     pub(crate) fn area_m2(&self) -> f64 {
         0.5 * self.double_area().length()
+    }
+
+    /// A place of it, all alike.
+    pub(crate) fn place(&self, random: &mut Xoshiro) -> DVec3 {
+        let root = random.uniform().sqrt();
+        let along = random.uniform();
+        let [a, b, c] = self.corners;
+        a * (1.0 - root) + b * (root * (1.0 - along)) + c * (root * along)
     }
 
     /// Where the ray meets it (Moeller and Trumbore 1997).

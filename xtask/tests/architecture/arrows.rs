@@ -4,7 +4,7 @@ use crate::Violation;
 use toml::Table;
 
 /// The crates from the ground up, and what each may use of the others.
-const MAY_USE: [(&str, &[&str]); 16] = [
+const MAY_USE: [(&str, &[&str]); 17] = [
     ("quasilux-sampling", &[]),
     ("quasilux-bvh", &[]),
     ("quasilux-stats", &[]),
@@ -90,6 +90,7 @@ const MAY_USE: [(&str, &[&str]); 16] = [
             "quasilux-report",
         ],
     ),
+    ("quasilux-gauntlet", &["quasilux-transport", "quasilux-scene", "quasilux-brute"]),
 ];
 
 /// Those above all others, whose rows in the page say so.

@@ -1,0 +1,54 @@
+//! Hard rooms at random, by quasilux and by `quasilux-brute`, which shares no code with it:
+//! `cargo xtask gauntlet`.
+//!
+//! A room follows from its family and its number ([`room_of`]): parameters come from a hash of
+//! both. It is written as a project of quasilux ([`Room::project`]) and as a scene of the reference
+//! ([`brute_scene()`]), which is told where to look. One run is looked at when its limits pass
+//! ([`trial::Stage::run`]), and each value is held against its reference: an interval that is more
+//! than 5 standard errors off is false, of values with a bound on unseen light only where the truth
+//! is above that as well. What chance allows is counted beside ([`chance`]).
+//!
+//! Runs and references are kept in a folder ([`record`], [`references`]), so that a command that
+//! was broken off goes on.
+
+mod brute_scene;
+pub mod chance;
+pub mod command;
+mod count;
+mod dice;
+mod digest;
+pub mod effort;
+mod families;
+mod judgement;
+mod project;
+pub mod record;
+pub mod references;
+mod report;
+mod room;
+mod shell;
+mod solids;
+pub mod trial;
+pub mod truth;
+
+pub use brute_scene::{brute_parts, brute_scene};
+pub use dice::Parameter;
+pub use project::{NamedFile, ProjectFiles, Slot};
+pub use report::{Report, Subject};
+pub use room::{
+    Face, Found, Lamp, Lookout, Outside, Parallelogram, Room, SensorPlace, Shine, SkyKind,
+    SunPlace, Surface,
+};
+
+use dice::Dice;
+
+/// The room of this number in the family of this name; `None` where there is no such family.
+#[must_use]
+pub fn room_of(family: &str, number: u64) -> Option<Room> {
+    let family = families::ALL.iter().find(|known| known.name == family)?;
+    let mut dice = Dice::new(family.name, number);
+    let room = (family.make)(&mut dice);
+    Some(Room { number, family: family.name, parameters: dice.drawn, ..room })
+}
+
+#[cfg(test)]
+mod tests;
