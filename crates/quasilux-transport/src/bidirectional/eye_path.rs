@@ -23,6 +23,9 @@ use quasilux_sampling::warp::sample_cosine_hemisphere;
 use quasilux_sampling::{Sampler, choose_weights};
 use std::f64::consts::{FRAC_1_PI, PI};
 
+/// Light vertices that are looked at from an eye vertex.
+const CANDIDATES: usize = 4;
+
 /// Where an eye path starts, and who gets what it finds.
 pub(super) struct Start<'p, S> {
     /// Number of its sums.
@@ -506,8 +509,9 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
         }
     }
 
-    /// Asks for the light of its light subpath by one of the vertices, chosen in proportion to its
-    /// flux and to the geometry between: the choice is no part of weights.
+    /// Asks for the light of its light subpath by one of the vertices. Of many some are looked at,
+    /// evenly spaced, and one of these is chosen in proportion to what each would give: choices are
+    /// no part of weights.
     fn connect(
         &mut self,
         engine: &Engine<'_, '_, S>,
@@ -517,18 +521,23 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
         let most = engine.context.max_bounces.unwrap_or(u32::MAX);
         let bounces = self.bounces_asked;
         let own = self.light.of(self.subpath).take_while(|it| bounces + it.bounces < most);
-        if own.clone().next().is_none() {
+        let count = own.clone().count();
+        if count == 0 {
             return;
         }
         let u = self.sampler.next_1d();
-        let worth = own.clone().map(|light_vertex| asker.worth(engine, light_vertex));
-        let Some(choice) = choose_weights(u, worth) else { return };
-        let connection = own.clone().nth(choice.index);
-        let Some(Connection { vertex, direction, distance_m, light }) =
-            connection.and_then(|it| asker.connection(engine, it))
+        let stride = count.div_ceil(CANDIDATES);
+        let first = ((u * stride as f64) as usize).min(stride - 1);
+        let u = u * stride as f64 - first as f64;
+        let candidates = own.skip(first).step_by(stride);
+        let connections = candidates.filter_map(|it| asker.connection(engine, it));
+        let connections: Vec<Connection<'_, S>> = connections.collect();
+        let Some(choice) = choose_weights(u, connections.iter().map(|it| it.light.luminance()))
         else {
             return;
         };
+        let &Connection { vertex, direction, distance_m, light } = &connections[choice.index];
+        let light = light * stride as f64;
         let from = asker.vertex.ray_origin(direction);
         let ray = from.shadow_ray(direction, distance_m, vertex.at.facet);
         let (light, bounces) = (light * choice.pdf.recip(), vertex.bounces + 1);
@@ -559,19 +568,6 @@ impl<S: Spectrum> Asker<'_, '_, S> {
         let landings = per_lm * sample.illuminance_lx / pdf;
         let share = of_connection(product(landings, self.to_eye(sample.direction)), 0.0);
         LightSample { light: sample.light * (share / pdf), ..sample }
-    }
-
-    /// Flux of a light vertex, cosines and squared distance: 0 where one of the two turns its back
-    /// on the other.
-    fn worth(&self, engine: &Engine<'_, '_, S>, light_vertex: &LightVertex<S>) -> f64 {
-        let way = light_vertex.at.position - self.vertex.position();
-        let square_m2 = way.length_squared();
-        let (cos, cos_there) = (self.vertex.cos(way), -light_vertex.at.n.dot(way));
-        let takes_both_sides = || engine.context.world.bsdf(&light_vertex.at).transmits();
-        let cos_there =
-            if cos_there < 0.0 && takes_both_sides() { -cos_there } else { cos_there };
-        let flux_lm = light_vertex.flux_lm.luminance();
-        flux_lm * cos.max(0.0) * cos_there.max(0.0) / (square_m2 * square_m2)
     }
 
     /// `None` where one of the two turns its back on the other.

@@ -61,14 +61,15 @@ impl Plan {
         Self { subpaths, joined: subpaths.min(JOINED), receivers }
     }
 
-    /// The first of the light subpaths that a target is joined to.
-    pub(super) fn first_joined(&self, target: usize) -> u64 {
-        (target as u64 % (self.subpaths / self.joined)) * self.joined
+    /// The first of the light subpaths of an index that a target is joined to: others for each
+    /// index, for those with the same number in all of them are no even part of the set.
+    pub(super) fn first_joined(&self, target: usize, index: u64) -> u64 {
+        (target as u64).wrapping_add(index) % (self.subpaths / self.joined) * self.joined
     }
 
-    /// The light subpath that eye paths of a target are connected to.
-    pub(super) fn connected(&self, target: usize) -> u64 {
-        target as u64 % self.subpaths
+    /// The light subpath that the eye path of a target with this index is connected to.
+    pub(super) fn connected(&self, target: usize, index: u64) -> u64 {
+        (target as u64).wrapping_add(index) % self.subpaths
     }
 
     /// Photons that count in weights, for each eye path, where the last surface is narrow or not,

@@ -11,7 +11,7 @@ use super::light_subpath::LightSubpaths;
 use super::plan::Receiver;
 use super::sums::TargetSums;
 use crate::context::Stream;
-use crate::path::sections::WorkCounts;
+use crate::path::sections::{WorkCounts, partner};
 use crate::path::wave::WAVE;
 use crate::spectrum::Spectrum;
 use crate::stats::tally::Quantum;
@@ -19,11 +19,9 @@ use crate::stats::targets::Target;
 use crate::world::visibility::ShadowQueue;
 use quasilux_sampling::{PointSet, Sampler};
 use serde::{Deserialize, Serialize};
-use std::array;
 use std::ops::Range;
 
-/// Indices of a unit at most, and the first is a multiple: an eye path is connected to the light
-/// subpaths of another of them.
+/// Indices of a unit at most, and the first is a multiple.
 pub(super) const INDICES: u64 = 16;
 
 /// Some targets with some indices in one replicate.
@@ -57,8 +55,11 @@ impl Unit<'_> {
         let mut sums = vec![empty; self.targets.len()];
         let first = self.indices.start / INDICES * INDICES;
         let points = context.points(self.replicate, Stream::SharedSubpaths);
-        let samplers = (first * plan.subpaths..(first + INDICES) * plan.subpaths)
-            .map(|index| Sampler::new(&points, index));
+        // Subpaths that are connected must not have the same digits.
+        let samplers = (first..first + INDICES).flat_map(|index| {
+            let own = partner(index) * plan.subpaths;
+            (own..own + plan.subpaths).map(|index| Sampler::new(&points, index))
+        });
         let counters = Counters::new(&context.world, &receivers);
         let index_of = |subpath: usize| first + subpath as u64 / plan.subpaths;
         let light = LightSubpaths::trace(engine, samplers, |subpath, passing| {
@@ -94,7 +95,8 @@ impl Unit<'_> {
         for (section, (target, receiver)) in self.targets.iter().zip(receivers).enumerate() {
             let points = context.points(self.replicate, Stream::Joins(*target as u64));
             let block = self.indices.start / INDICES * INDICES;
-            let next = points.coordinate(block, 2);
+            // Numbers of blocks, not their indices: multiples of a power of two are no even set.
+            let next = points.coordinate(block / INDICES, 2);
             let (position, n) = (receiver.position, receiver.n);
             let from = match receiver.target {
                 Target::Point { position, normal } => world.ray_origin_of_sensor(position, normal),
@@ -108,7 +110,7 @@ impl Unit<'_> {
                     let u = [0, 1].map(|dimension| points.coordinate(index, dimension));
                     joiner.from = world.ray_origin_of_sensor(grid.point_in_cell(cell, u), n);
                 }
-                let first = (index % INDICES * plan.subpaths + plan.first_joined(*target)) as usize;
+                let first = (index % INDICES * plan.subpaths + plan.first_joined(*target, index)) as usize;
                 for subpath in first..first + plan.joined as usize {
                     joiner.join(engine, section as u32, light.of(subpath), &mut shadows);
                 }
@@ -133,7 +135,6 @@ impl Unit<'_> {
         sums: &mut [TargetSums],
     ) -> WorkCounts {
         let Engine { context, plan, .. } = engine;
-        let partners = partners(self.indices.start / INDICES);
         let mut paths = EyePaths::default();
         let mut found = Found { sums, quantum };
         let at_once = (WAVE / (self.indices.end - self.indices.start)).max(1) as usize;
@@ -145,10 +146,10 @@ impl Unit<'_> {
                 .map(|section| context.points(self.replicate, stream(section)))
                 .collect();
             let starts = sections.zip(&points).flat_map(|(section, points)| {
-                let connected = plan.connected(self.targets[section]);
+                let target = self.targets[section];
                 self.indices.clone().map(move |index| {
-                    let partner = partners[(index % INDICES) as usize];
-                    let subpath = partner * plan.subpaths + connected;
+                    let connected = plan.connected(target, index);
+                    let subpath = index % INDICES * plan.subpaths + connected;
                     Start {
                         section,
                         receiver: receivers[section],
@@ -161,44 +162,5 @@ impl Unit<'_> {
             paths.trace(engine, starts, &mut found);
         }
         paths.work
-    }
-}
-
-/// Which index of a block each index is connected to: a permutation that is another one in each
-/// block.
-///
-/// At one index two point sets have the same digits, permuted: subpaths of the same index would
-/// have as few pairs of directions as there are permutations.
-fn partners(block: u64) -> [u64; INDICES as usize] {
-    let mut all: [u64; INDICES as usize] = array::from_fn(|index| index as u64);
-    let mut state = block;
-    for last in (1..all.len()).rev() {
-        // SplitMix64 (Steele, Lea and Flood 2014).
-        state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut mixed = state;
-        mixed = (mixed ^ mixed >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        mixed = (mixed ^ mixed >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
-        mixed ^= mixed >> 31;
-        all.swap(last, (mixed % (last as u64 + 1)) as usize);
-    }
-    all
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Each block is a permutation, and over many blocks each pair of indices comes about equally
-    /// often: 256 each with a standard deviation of 16.
-    #[test]
-    fn partners_are_all_indices_and_none_in_particular() {
-        let mut counts = [[0_u32; INDICES as usize]; INDICES as usize];
-        for block in 0..4096 {
-            let mut all = partners(block);
-            all.iter().enumerate().for_each(|(index, it)| counts[index][*it as usize] += 1);
-            all.sort_unstable();
-            assert!(all.into_iter().eq(0..INDICES));
-        }
-        assert!(counts.iter().flatten().all(|count| (176..336).contains(count)), "{counts:?}");
     }
 }

@@ -173,7 +173,7 @@ impl<S: Spectrum> Section<'_, S> {
 /// have as few pairs of directions as there are permutations. So each power of two of indices up to
 /// the next is mixed, by multiplications that carry digits up and shifts that carry them down: both
 /// subpaths have all points of a balanced set there, and nothing in common.
-fn partner(index: u64) -> u64 {
+pub(crate) fn partner(index: u64) -> u64 {
     let first = (index + 1).next_power_of_two() / 2;
     if first < 2 {
         return index;

@@ -16,9 +16,10 @@ pub(crate) fn cannot_see<S: Spectrum>(
 ) -> Vec<String> {
     match settings.estimator {
         EstimatorKind::Photon => of_photons(scene),
+        EstimatorKind::Bidirectional => Vec::new(),
         EstimatorKind::Path
         | EstimatorKind::Auto
-        | EstimatorKind::Bidirectional
+        | EstimatorKind::Selected
         | EstimatorKind::BidirectionalMap => of_paths(context),
     }
 }
