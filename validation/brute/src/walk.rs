@@ -9,7 +9,7 @@
 //! triangles, sky and sun may be asked for over mirrors and through glass too, point lights not.
 
 use crate::mode::Mode;
-use crate::optics::Followed;
+use crate::optics::{Followed, Way};
 use crate::random::Xoshiro;
 use crate::roulette::survive;
 use crate::sensor::Sensor;
@@ -81,7 +81,7 @@ impl World<'_> {
                 }
             }
         };
-        let way = (Followed::Flux, &mut *random);
+        let way = Way { followed: Followed::Flux, random };
         let Some(arrival) = self.follow(walker.origin, walker.direction, way, tell) else {
             return;
         };
@@ -91,7 +91,7 @@ impl World<'_> {
             return;
         };
         if finding.mode != Mode::Photons {
-            self.join(&vertex, flux_lm, (finding, random));
+            self.join(&vertex, flux_lm, finding, random);
         }
         let depth = walker.depth.max(self.scene.depth(vertex.position));
         let copies = (walker.depth..depth).fold(1, |copies, _| copies * self.scene.copies.max(1));
@@ -126,7 +126,7 @@ impl World<'_> {
     }
 
     /// What comes from a vertex straight to each sensor.
-    fn join(&self, vertex: &Vertex, flux_lm: f64, (finding, random): (&mut Finding, &mut Xoshiro)) {
+    fn join(&self, vertex: &Vertex, flux_lm: f64, finding: &mut Finding, random: &mut Xoshiro) {
         for (sensor, lx) in self.scene.sensors.iter().zip(&mut *finding.lx) {
             let to = sensor.place(random) - vertex.position;
             let square = to.length_squared();
@@ -169,7 +169,7 @@ impl World<'_> {
             let value = eye.value(direction);
             if value > 0.0 {
                 let pdf = eye.pdf(direction);
-                let way = (Followed::Luminance, &mut *random);
+                let way = Way { followed: Followed::Luminance, random };
                 if let Some(seen) = self.follow(eye.position, direction, way, |_| ()) {
                     *lx += value / pdf * seen.weight * self.luminance_met(&seen, pdf);
                 }
