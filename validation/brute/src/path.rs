@@ -48,8 +48,8 @@ impl<'a> World<'a> {
         value / pdf * weight * (points + self.path_from(vertex, 1, random))
     }
 
-    /// Whether a straight way from a place goes through an aim before its end. Aims that the place or
-    /// the end lies on do not count, from whichever end the way is seen.
+    /// Whether a straight way from a place goes through an aim before its end. Aims that the place
+    /// or the end lies on do not count, from whichever end the way is seen.
     pub(crate) fn is_through_aim(&self, place: DVec3, direction: DVec3, far_m: f64) -> bool {
         let mut crossings =
             self.scene.aims.iter().filter_map(|aim| aim.crossing_m(place, direction));

@@ -5,8 +5,9 @@
 //!   through panes;
 //! - the walk itself crosses the area of a sensor, and brings its flux over that area.
 //!
-//! Light that comes without a vertex that scatters is asked for from the sensor, or counted. Emitting
-//! triangles, sky and sun may be asked for over mirrors and through glass too, point lights not.
+//! Light that comes without a vertex that scatters is asked for from the sensor, or counted.
+//! Emitting triangles, sky and sun may be asked for over mirrors and through glass too, point
+//! lights not.
 
 use crate::mode::Mode;
 use crate::optics::{Followed, Way};

@@ -6,8 +6,8 @@
 //!
 //! `ROOM.toml` is a project file, of which a part is understood; `WAYS.toml` says where to look and
 //! by which mode each light is found, `rooms/` of this crate has some. Two runs with two seeds take
-//! half the time each. With `--beside FILE` the values after `"lux":` and `"se":` in that file stand
-//! beside, in the order of the sensors.
+//! half the time each. With `--beside FILE` the values after `"lux":` and `"se":` in that file
+//! stand beside, in the order of the sensors.
 
 mod obj;
 mod photometry;
