@@ -19,7 +19,7 @@ pub(crate) enum Followed {
 }
 
 /// What is followed on a way, and what decides where there are two.
-pub(crate) struct Way<'r> {
+pub(crate) struct Course<'r> {
     pub(crate) followed: Followed,
     pub(crate) random: &'r mut Xoshiro,
 }
@@ -70,7 +70,7 @@ pub(crate) fn send_on(
     surface: Surface,
     direction: DVec3,
     front: DVec3,
-    way: &mut Way,
+    way: &mut Course,
 ) -> Option<Onward> {
     let slope = direction.dot(front);
     let cos = slope.abs().min(1.0);

@@ -1,6 +1,6 @@
 //! One path from a sensor, with next-event estimation.
 
-use crate::optics::{Followed, Way};
+use crate::optics::{Course, Followed};
 use crate::random::Xoshiro;
 use crate::roulette::survive;
 use crate::sensor::Sensor;
@@ -34,7 +34,7 @@ impl<'a> World<'a> {
             return 0.0;
         }
         let pdf = eye.pdf(direction);
-        let way = Way { followed: Followed::Luminance, random };
+        let way = Course { followed: Followed::Luminance, random };
         let arrival = self.follow(eye.position, direction, way, |_| ());
         let arrival = arrival.filter(|it| {
             !it.is_bent && self.is_through_aim(eye.position, direction, it.distance_m)
@@ -73,7 +73,7 @@ impl<'a> World<'a> {
                 return found;
             }
             let pdf = vertex.pdf(direction);
-            let way = Way { followed: Followed::Luminance, random };
+            let way = Course { followed: Followed::Luminance, random };
             let Some(arrival) = self.follow(vertex.position, direction, way, |_| ()) else {
                 return found;
             };

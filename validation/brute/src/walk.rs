@@ -10,7 +10,7 @@
 //! lights not.
 
 use crate::mode::Mode;
-use crate::optics::{Followed, Way};
+use crate::optics::{Course, Followed};
 use crate::random::Xoshiro;
 use crate::roulette::survive;
 use crate::sensor::Sensor;
@@ -44,7 +44,7 @@ struct Finding<'a> {
 impl World<'_> {
     /// Adds what one walk brings to each sensor, in lx.
     pub(crate) fn walk(&self, starts: &Starts, mode: Mode, random: &mut Xoshiro, lx: &mut [f64]) {
-        self.ask_directly(mode, random, lx);
+        self.sample_direct_light(mode, random, lx);
         let Some(start) = starts.draw(self, random) else {
             return;
         };
@@ -82,7 +82,7 @@ impl World<'_> {
                 }
             }
         };
-        let way = Way { followed: Followed::Flux, random };
+        let way = Course { followed: Followed::Flux, random };
         let Some(arrival) = self.follow(walker.origin, walker.direction, way, tell) else {
             return;
         };
@@ -149,7 +149,7 @@ impl World<'_> {
     /// What comes from the lights without a vertex that scatters, where it is not counted: straight
     /// from point lights (but at points, which need no chance), over mirrors and through glass too
     /// from emitting triangles, sky and sun.
-    fn ask_directly(&self, mode: Mode, random: &mut Xoshiro, found_lx: &mut [f64]) {
+    fn sample_direct_light(&self, mode: Mode, random: &mut Xoshiro, found_lx: &mut [f64]) {
         for (sensor, lx) in self.scene.sensors.iter().zip(found_lx) {
             if mode == Mode::KeyholesAndJoins {
                 *lx += self.aimed_path_lx(sensor, random);
@@ -170,7 +170,7 @@ impl World<'_> {
             let value = eye.value(direction);
             if value > 0.0 {
                 let pdf = eye.pdf(direction);
-                let way = Way { followed: Followed::Luminance, random };
+                let way = Course { followed: Followed::Luminance, random };
                 if let Some(seen) = self.follow(eye.position, direction, way, |_| ()) {
                     *lx += value / pdf * seen.weight * self.luminance_met(&seen, pdf);
                 }

@@ -3,7 +3,7 @@
 use crate::emission::Emission;
 use crate::hint::Lookout;
 use crate::metal::Metal;
-use crate::optics::{Way, send_on, through_pane};
+use crate::optics::{Course, send_on, through_pane};
 use crate::scene::Scene;
 use crate::surface::Surface;
 use crate::tree::Tree;
@@ -137,7 +137,7 @@ impl<'a> World<'a> {
         &self,
         origin: DVec3,
         direction: DVec3,
-        mut way: Way,
+        mut way: Course,
         mut tell: impl FnMut(&Piece),
     ) -> Option<Arrival> {
         let (mut weight, mut is_bent, mut distance_m) = (1.0, false, 0.0);

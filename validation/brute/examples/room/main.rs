@@ -108,11 +108,11 @@ fn half(asked: &Asked, scene: &Scene, ways: &Ways, seed: u64) -> Vec<Estimate> {
 }
 
 /// A pair of errors as one.
-trait Joined {
+trait Quadrature {
     fn hypot_with(self, other: f64) -> f64;
 }
 
-impl Joined for f64 {
+impl Quadrature for f64 {
     fn hypot_with(self, other: f64) -> f64 {
         (self * self + other * other).sqrt()
     }
