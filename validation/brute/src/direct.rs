@@ -91,8 +91,8 @@ impl World<'_> {
         value * sun.luminance_cd_m2() * passed / pdf
     }
 
-    /// The luminance that a ray came to, weighed against next-event estimation; `pdf` is the density
-    /// that its first direction was drawn with.
+    /// The luminance that a ray came to, weighed against next-event estimation; `pdf` is the
+    /// density that its first direction was drawn with.
     pub(crate) fn luminance_met(&self, arrival: &Arrival, pdf: f64) -> f64 {
         let share = |pdf_of_light: f64| {
             if arrival.is_bent { 1.0 } else { pdf / (pdf + pdf_of_light) }

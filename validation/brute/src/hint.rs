@@ -38,8 +38,8 @@ impl Lookout {
         Self { within: [DVec3::NEG_INFINITY, DVec3::INFINITY], ..self }
     }
 
-    /// A parallelogram far away that covers the disk of a half angle about a unit direction: for the
-    /// sun, and for where mirrors show it.
+    /// A parallelogram far away that covers the disk of a half angle about a unit direction: for
+    /// the sun, and for where mirrors show it.
     #[must_use]
     pub fn around(direction: DVec3, half_angle_rad: f64) -> Self {
         let (s, t) = direction.any_orthonormal_pair();

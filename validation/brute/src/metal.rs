@@ -17,7 +17,7 @@ const STEPS: usize = 160;
 /// Midpoints of each of two coordinates behind a value of the table.
 const MIDPOINTS: u32 = 112;
 /// Least share of directions that are drawn by the cosine, whatever the facets do.
-const LEAST_COSINE: f64 = 0.02;
+const MIN_COSINE_SHARE: f64 = 0.02;
 
 /// One kind of rough metal.
 #[derive(Clone, Debug)]
@@ -120,7 +120,7 @@ impl Metal {
     }
 
     fn cosine_share(&self, cos: f64) -> f64 {
-        (self.repeated * (1.0 - self.single(cos))).max(LEAST_COSINE)
+        (self.repeated * (1.0 - self.single(cos))).max(MIN_COSINE_SHARE)
     }
 
     /// `E` on straight lines between the steps.

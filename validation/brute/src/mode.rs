@@ -17,9 +17,9 @@ pub enum Mode {
     /// without a vertex in between, or from the last vertex through an aim: for narrow beams, the
     /// sun through small openings, bright rooms behind keyholes.
     BeamsAndJoins,
-    /// As [`Self::Joins`], but light whose last vertex is seen from the sensor through an aim is found
-    /// by a path that starts there: for sensors that look into a bright room through a keyhole. It
-    /// misses in that light what [`Self::Paths`] misses.
+    /// As [`Self::Joins`], but light whose last vertex is seen from the sensor through an aim is
+    /// found by a path that starts there: for sensors that look into a bright room through a
+    /// keyhole. It misses in that light what [`Self::Paths`] misses.
     KeyholesAndJoins,
     /// Walks from the lights, counted where they cross the area of a sensor: all light, for points
     /// as means over their discs; a point without a disc gets nothing.

@@ -18,6 +18,12 @@ pub(crate) enum Followed {
     Flux,
 }
 
+/// What is followed on a way, and what decides where there are two.
+pub(crate) struct Course<'r> {
+    pub(crate) followed: Followed,
+    pub(crate) random: &'r mut Xoshiro,
+}
+
 /// How light goes on.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Onward {
@@ -64,7 +70,7 @@ pub(crate) fn send_on(
     surface: Surface,
     direction: DVec3,
     front: DVec3,
-    (followed, random): (Followed, &mut Xoshiro),
+    way: &mut Course,
 ) -> Option<Onward> {
     let slope = direction.dot(front);
     let cos = slope.abs().min(1.0);
@@ -77,7 +83,7 @@ pub(crate) fn send_on(
         Surface::Pane { eta, tint } => {
             let back = mirrored_by_pane(cos, eta);
             let weight = back + tint * (1.0 - back);
-            if random.uniform() * weight < back {
+            if way.random.uniform() * weight < back {
                 return Some(Onward { direction: mirrored, weight, is_straight: false });
             }
             Some(Onward { direction, weight, is_straight: true })
@@ -85,12 +91,12 @@ pub(crate) fn send_on(
         Surface::Glass { eta } => {
             let eta = if slope < 0.0 { eta } else { 1.0 / eta };
             let it = boundary(cos, eta);
-            if random.uniform() < 0.5 * (it.across + it.within) {
+            if way.random.uniform() < 0.5 * (it.across + it.within) {
                 return Some(Onward { direction: mirrored, weight: 1.0, is_straight: false });
             }
             let along = direction - front * slope;
             let refracted = along / eta + front * (it.cos_behind * slope.signum());
-            let weight = if followed == Followed::Luminance { 1.0 / (eta * eta) } else { 1.0 };
+            let weight = if way.followed == Followed::Luminance { 1.0 / (eta * eta) } else { 1.0 };
             Some(Onward { direction: refracted.normalize(), weight, is_straight: false })
         }
     }

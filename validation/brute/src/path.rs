@@ -1,6 +1,6 @@
 //! One path from a sensor, with next-event estimation.
 
-use crate::optics::Followed;
+use crate::optics::{Course, Followed};
 use crate::random::Xoshiro;
 use crate::roulette::survive;
 use crate::sensor::Sensor;
@@ -34,7 +34,7 @@ impl<'a> World<'a> {
             return 0.0;
         }
         let pdf = eye.pdf(direction);
-        let way = (Followed::Luminance, &mut *random);
+        let way = Course { followed: Followed::Luminance, random };
         let arrival = self.follow(eye.position, direction, way, |_| ());
         let arrival = arrival.filter(|it| {
             !it.is_bent && self.is_through_aim(eye.position, direction, it.distance_m)
@@ -48,8 +48,8 @@ impl<'a> World<'a> {
         value / pdf * weight * (points + self.path_from(vertex, 1, random))
     }
 
-    /// Whether a straight way from a place goes through an aim before its end. Aims that the place or
-    /// the end lies on do not count, from whichever end the way is seen.
+    /// Whether a straight way from a place goes through an aim before its end. Aims that the place
+    /// or the end lies on do not count, from whichever end the way is seen.
     pub(crate) fn is_through_aim(&self, place: DVec3, direction: DVec3, far_m: f64) -> bool {
         let mut crossings =
             self.scene.aims.iter().filter_map(|aim| aim.crossing_m(place, direction));
@@ -73,7 +73,7 @@ impl<'a> World<'a> {
                 return found;
             }
             let pdf = vertex.pdf(direction);
-            let way = (Followed::Luminance, &mut *random);
+            let way = Course { followed: Followed::Luminance, random };
             let Some(arrival) = self.follow(vertex.position, direction, way, |_| ()) else {
                 return found;
             };

@@ -17,7 +17,14 @@ use std::f64::consts::{PI, TAU};
 
 /// The sources of a world, each with the probability of being chosen.
 pub(crate) struct Starts {
-    chosen: Vec<(Source, f64)>,
+    chosen: Vec<Choice>,
+}
+
+/// A source that may be chosen.
+#[derive(Clone, Copy)]
+struct Choice {
+    source: Source,
+    probability: f64,
 }
 
 /// How a walk starts.
@@ -31,35 +38,29 @@ pub(crate) enum Start<'a> {
 
 impl Starts {
     pub(crate) fn new(world: &World) -> Self {
-        let mut chosen: Vec<(Source, f64)> = Vec::new();
-        for source in world.scene.sources() {
-            let flux_lm = world.flux_lm(source);
-            if flux_lm > 0.0 {
-                chosen.push((source, flux_lm));
-            }
-        }
-        let all: f64 = chosen.iter().map(|(_, flux_lm)| flux_lm).sum();
+        let choice = |source| Choice { source, probability: world.flux_lm(source) };
+        let mut chosen: Vec<Choice> = world.scene.sources().into_iter().map(choice).collect();
+        chosen.retain(|it| it.probability > 0.0);
+        let all_lm: f64 = chosen.iter().map(|it| it.probability).sum();
         let even = 0.5 / chosen.len() as f64;
-        for (_, share) in &mut chosen {
-            *share = 0.5 * *share / all + even;
-        }
+        chosen.iter_mut().for_each(|it| it.probability = 0.5 * it.probability / all_lm + even);
         Self { chosen }
     }
 
     /// A light, and the probability that it is chosen; none where all is dark.
-    fn choose(&self, random: &mut Xoshiro) -> Option<(Source, f64)> {
+    fn choose(&self, random: &mut Xoshiro) -> Option<Choice> {
         let mut left = random.uniform();
-        for &(source, probability) in &self.chosen {
-            if left < probability {
-                return Some((source, probability));
+        for choice in &self.chosen {
+            if left < choice.probability {
+                return Some(*choice);
             }
-            left -= probability;
+            left -= choice.probability;
         }
         self.chosen.last().copied()
     }
 
     pub(crate) fn draw<'w>(&self, world: &'w World<'_>, random: &mut Xoshiro) -> Option<Start<'w>> {
-        let (source, probability) = self.choose(random)?;
+        let Choice { source, probability } = self.choose(random)?;
         let mut start = match source {
             Source::Light(number) => {
                 let light = &world.scene.lights[number];

@@ -5,11 +5,12 @@
 //!   through panes;
 //! - the walk itself crosses the area of a sensor, and brings its flux over that area.
 //!
-//! Light that comes without a vertex that scatters is asked for from the sensor, or counted. Emitting
-//! triangles, sky and sun may be asked for over mirrors and through glass too, point lights not.
+//! Light that comes without a vertex that scatters is asked for from the sensor, or counted.
+//! Emitting triangles, sky and sun may be asked for over mirrors and through glass too, point
+//! lights not.
 
 use crate::mode::Mode;
-use crate::optics::Followed;
+use crate::optics::{Course, Followed};
 use crate::random::Xoshiro;
 use crate::roulette::survive;
 use crate::sensor::Sensor;
@@ -43,7 +44,7 @@ struct Finding<'a> {
 impl World<'_> {
     /// Adds what one walk brings to each sensor, in lx.
     pub(crate) fn walk(&self, starts: &Starts, mode: Mode, random: &mut Xoshiro, lx: &mut [f64]) {
-        self.ask_directly(mode, random, lx);
+        self.sample_direct_light(mode, random, lx);
         let Some(start) = starts.draw(self, random) else {
             return;
         };
@@ -81,7 +82,7 @@ impl World<'_> {
                 }
             }
         };
-        let way = (Followed::Flux, &mut *random);
+        let way = Course { followed: Followed::Flux, random };
         let Some(arrival) = self.follow(walker.origin, walker.direction, way, tell) else {
             return;
         };
@@ -91,7 +92,7 @@ impl World<'_> {
             return;
         };
         if finding.mode != Mode::Photons {
-            self.join(&vertex, flux_lm, (finding, random));
+            self.join(&vertex, flux_lm, finding, random);
         }
         let depth = walker.depth.max(self.scene.depth(vertex.position));
         let copies = (walker.depth..depth).fold(1, |copies, _| copies * self.scene.copies.max(1));
@@ -126,7 +127,7 @@ impl World<'_> {
     }
 
     /// What comes from a vertex straight to each sensor.
-    fn join(&self, vertex: &Vertex, flux_lm: f64, (finding, random): (&mut Finding, &mut Xoshiro)) {
+    fn join(&self, vertex: &Vertex, flux_lm: f64, finding: &mut Finding, random: &mut Xoshiro) {
         for (sensor, lx) in self.scene.sensors.iter().zip(&mut *finding.lx) {
             let to = sensor.place(random) - vertex.position;
             let square = to.length_squared();
@@ -148,7 +149,7 @@ impl World<'_> {
     /// What comes from the lights without a vertex that scatters, where it is not counted: straight
     /// from point lights (but at points, which need no chance), over mirrors and through glass too
     /// from emitting triangles, sky and sun.
-    fn ask_directly(&self, mode: Mode, random: &mut Xoshiro, found_lx: &mut [f64]) {
+    fn sample_direct_light(&self, mode: Mode, random: &mut Xoshiro, found_lx: &mut [f64]) {
         for (sensor, lx) in self.scene.sensors.iter().zip(found_lx) {
             if mode == Mode::KeyholesAndJoins {
                 *lx += self.aimed_path_lx(sensor, random);
@@ -169,7 +170,7 @@ impl World<'_> {
             let value = eye.value(direction);
             if value > 0.0 {
                 let pdf = eye.pdf(direction);
-                let way = (Followed::Luminance, &mut *random);
+                let way = Course { followed: Followed::Luminance, random };
                 if let Some(seen) = self.follow(eye.position, direction, way, |_| ()) {
                     *lx += value / pdf * seen.weight * self.luminance_met(&seen, pdf);
                 }

@@ -3,8 +3,7 @@
 use crate::emission::Emission;
 use crate::hint::Lookout;
 use crate::metal::Metal;
-use crate::optics::{Followed, send_on, through_pane};
-use crate::random::Xoshiro;
+use crate::optics::{Course, send_on, through_pane};
 use crate::scene::Scene;
 use crate::surface::Surface;
 use crate::tree::Tree;
@@ -138,7 +137,7 @@ impl<'a> World<'a> {
         &self,
         origin: DVec3,
         direction: DVec3,
-        (followed, random): (Followed, &mut Xoshiro),
+        mut way: Course,
         mut tell: impl FnMut(&Piece),
     ) -> Option<Arrival> {
         let (mut weight, mut is_bent, mut distance_m) = (1.0, false, 0.0);
@@ -156,7 +155,7 @@ impl<'a> World<'a> {
             let triangle = &self.scene.triangles[hit.triangle];
             let front = triangle.double_area().normalize();
             let position = origin + direction * hit.distance_m;
-            let onward = send_on(triangle.surface, direction, front, (followed, random));
+            let onward = send_on(triangle.surface, direction, front, &mut way);
             let Some(onward) = onward else {
                 let met = Some(Met { triangle: hit.triangle, position, front });
                 return Some(Arrival { direction, met, weight, is_bent, distance_m });

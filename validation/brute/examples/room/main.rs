@@ -6,8 +6,8 @@
 //!
 //! `ROOM.toml` is a project file, of which a part is understood; `WAYS.toml` says where to look and
 //! by which mode each light is found, `rooms/` of this crate has some. Two runs with two seeds take
-//! half the time each. With `--beside FILE` the values after `"lux":` and `"se":` in that file stand
-//! beside, in the order of the sensors.
+//! half the time each. With `--beside FILE` the values after `"lux":` and `"se":` in that file
+//! stand beside, in the order of the sensors.
 
 mod obj;
 mod photometry;
@@ -108,11 +108,11 @@ fn half(asked: &Asked, scene: &Scene, ways: &Ways, seed: u64) -> Vec<Estimate> {
 }
 
 /// A pair of errors as one.
-trait Joined {
+trait Quadrature {
     fn hypot_with(self, other: f64) -> f64;
 }
 
-impl Joined for f64 {
+impl Quadrature for f64 {
     fn hypot_with(self, other: f64) -> f64 {
         (self * self + other * other).sqrt()
     }

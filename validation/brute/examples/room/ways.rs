@@ -15,8 +15,8 @@
 //! mode = "paths"                  # or "joins", "beams", "keyholes", "photons"
 //! ```
 //!
-//! A lookout is a parallelogram, with `low` and `high` for the box that looks there, or the sun with
-//! a half angle in degrees.
+//! A lookout is a parallelogram, with `low` and `high` for the box that looks there, or the sun
+//! with a half angle in degrees.
 
 use super::project::{as_vector, vector};
 use quasilux_brute::{Extent, Lookout, Mode, Part, Scene, Source};
