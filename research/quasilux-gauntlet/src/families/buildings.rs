@@ -193,5 +193,8 @@ pub(crate) fn partitions(dice: &mut Dice) -> Room {
     let panel = Parallelogram::square(DVec3::new(0.1, 1.5, 1.5), DVec3::X, side);
     room.add_panel(panel, dice.log("panel cd", 100.0, 10_000.0) / (side * side));
     room.add_place(DVec3::new(0.8, 1.0, 0.0), DVec3::Z);
+    room.scatter(dice, DVec3::splat(0.3), DVec3::new(1.3, 2.7, 2.3), 2);
+    let last = length - 1.2;
+    room.scatter(dice, DVec3::new(last, 0.3, 0.3), DVec3::new(length - 0.3, 2.7, 2.3), 2);
     room
 }
