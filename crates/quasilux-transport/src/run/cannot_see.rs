@@ -1,5 +1,5 @@
-//! Which classes of light paths in a scene an estimator cannot make: what its values are without, or
-//! have blurred.
+//! Which classes of light paths in a scene an estimator cannot make: what its values are without,
+//! or have blurred.
 
 use crate::bsdf::Bsdf;
 use crate::context::Context;

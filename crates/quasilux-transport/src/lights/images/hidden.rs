@@ -66,8 +66,8 @@ impl SpecularImages {
         ways
     }
 
-    /// The beginnings of classes of light paths that no path from a sensor makes, but by meeting the
-    /// disk of the sun by chance: a light and what stands behind it, such as "lamp, glass body".
+    /// The beginnings of classes of light paths that no path from a sensor makes, but by meeting
+    /// the disk of the sun by chance: a light and what stands behind it, such as "lamp, glass body".
     pub(crate) fn hidden_classes<S: Spectrum>(
         &self,
         world: &World<S>,
