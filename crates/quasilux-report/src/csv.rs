@@ -1,8 +1,9 @@
 //! One sensor as comma-separated values: a header with units, then one line a point.
 //!
 //! Fields are numbers, so none needs the quoting of RFC 4180; lines end in LF; a missing number is
-//! an empty field, as are `unseen_lx` and `merged_lx` of estimators without a bound. Where only the sky shines, columns of the daylight factor and of its parts
-//! follow, shares, each with its half-width.
+//! an empty field, as are `unseen_lx` and `merged_lx` of estimators without a bound. Where only the
+//! sky shines, columns of the daylight factor and of its parts follow, shares, each with its
+//! half-width.
 
 use crate::number::exact;
 use crate::outside::DaylightColumn;
@@ -102,8 +103,8 @@ mod tests {
         let text = csv(&report.sensors[0]);
         let [head, line] = [0, 1].map(|n| text.lines().nth(n).unwrap());
         assert!(head.ends_with(
-            ",direct_lx,unseen_lx,merged_lx,daylight_factor,daylight_factor_half_width,sky_component,\
-             sky_component_half_width,externally_reflected_component,\
+            ",direct_lx,unseen_lx,merged_lx,daylight_factor,daylight_factor_half_width,\
+             sky_component,sky_component_half_width,externally_reflected_component,\
              externally_reflected_component_half_width,internally_reflected_component,\
              internally_reflected_component_half_width"
         ));

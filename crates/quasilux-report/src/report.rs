@@ -206,9 +206,7 @@ impl Report {
             ));
         }
         warnings.extend(sensors.iter().filter_map(SensorReport::missing_figures));
-        for (sensor, SensorReport { name, .. }) in sensors.iter().enumerate() {
-            warnings.extend(unseen::warnings(name, estimates, sensor, settings));
-        }
+        warnings.extend(unseen::warnings(scene, estimates, settings));
         Self {
             sensors,
             cameras,

@@ -3,6 +3,7 @@
 
 use crate::figure::finite;
 use crate::number::brief;
+use quasilux_scene::Scene;
 use quasilux_transport::{Estimates, Settings, UnseenLight};
 
 /// Merged light is told where it is more than this share of the tolerance.
@@ -53,13 +54,13 @@ impl SummaryUnseen {
     }
 }
 
-/// What a reader must know of a sensor's bounds and discs.
-pub(crate) fn warnings(
-    name: &str,
-    estimates: &Estimates,
-    sensor: usize,
-    settings: &Settings,
-) -> Vec<String> {
+/// What a reader must know of bounds and discs.
+pub(crate) fn warnings(scene: &Scene, estimates: &Estimates, settings: &Settings) -> Vec<String> {
+    let sensors = scene.sensors.iter().enumerate();
+    sensors.flat_map(|(number, own)| of_sensor(&own.name, estimates, number, settings)).collect()
+}
+
+fn of_sensor(name: &str, estimates: &Estimates, sensor: usize, settings: &Settings) -> Vec<String> {
     let Some(unseen) = &estimates.sensors[sensor].unseen else { return Vec::new() };
     let points = unseen.point_lx.len();
     let mut warnings = Vec::new();
@@ -97,9 +98,9 @@ mod tests {
     use crate::example;
 
     fn told(change: impl FnOnce(&mut UnseenLight)) -> Vec<String> {
-        let (_, mut estimates) = example::bounded();
+        let (scene, mut estimates) = example::bounded();
         change(estimates.sensors[0].unseen.as_mut().expect("a bound"));
-        warnings("desk", &estimates, 0, &Settings { abs_tol_lx: 0.1, ..Settings::default() })
+        warnings(&scene, &estimates, &Settings { abs_tol_lx: 0.1, ..Settings::default() })
     }
 
     /// A tenth of 1 % of 100 lx is 0.1 lx, which the first point passes; a tenth of 0.1 lx stands

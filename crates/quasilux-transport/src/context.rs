@@ -1,7 +1,7 @@
 //! Everything that stays the same while light moves.
 
 use crate::lights::Lights;
-use crate::lights::images::{HiddenWay, SpecularImages};
+use crate::lights::images::{SpecularImages, UnshownWay};
 use crate::prepared::PreparedScene;
 use crate::purpose::{Purpose, PurposeRecorder};
 use crate::settings::{EstimatorKind, Settings};
@@ -195,7 +195,7 @@ impl<'a, S: Spectrum> Context<'a, S> {
         let world = World::new(prepared, simd);
         let lights = Lights::new(scene, &world, settings.estimator);
         let images = SpecularImages::new(&world, &lights.pointlikes, settings.image_depth);
-        let ways = images.hidden_ways(&world, &lights).into_iter().map(HiddenWay::in_words);
+        let ways = images.unshown_ways(&world, &lights).into_iter().map(UnshownWay::in_words);
         let ways: Vec<String> = ways.collect();
         let hides = (!ways.is_empty()).then(|| ways.join(", "));
         let cut = lights.area_luminaires.cut_by_surfaces(&world);

@@ -1,5 +1,5 @@
-//! Which classes of light paths in a scene an estimator cannot make: what its values are without, or
-//! have blurred.
+//! Which classes of light paths in a scene an estimator cannot make: what its values are without,
+//! or have blurred.
 
 use crate::bsdf::Bsdf;
 use crate::context::Context;
@@ -46,7 +46,7 @@ fn of_paths<S: Spectrum>(context: &Context<'_, S>) -> Vec<String> {
     let is_wanted = |bounces: u32| context.max_bounces.is_none_or(|most| bounces <= most);
     let ends = ends.filter(|(bounces, _)| is_wanted(*bounces)).filter_map(|(_, end)| end);
     let ends: Vec<&str> = ends.collect();
-    let classes = context.images.hidden_classes(world, &context.lights);
+    let classes = context.images.unshown_classes(world, &context.lights);
     let with_ends = |class: &String| {
         let class = class.clone();
         ends.iter().map(move |end| format!("{class}, {end}"))

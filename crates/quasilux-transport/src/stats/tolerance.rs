@@ -1,7 +1,7 @@
 //! Which sensor points are known as well as was asked for.
 
 use crate::settings::{Settings, ToleranceOn};
-use crate::stats::estimates::Estimates;
+use crate::stats::estimates::{Estimates, SensorEstimates};
 use crate::stats::interval::Interval;
 
 /// Paths or photons, all replicates together, that a point where nothing is found gets before a
@@ -29,8 +29,8 @@ pub(crate) struct Standing {
     pub(crate) unresolved: u64,
     /// Whether all that has to reach the tolerance has.
     pub(crate) is_reached: bool,
-    /// Whether the run need not go on: points where nothing was found, and those in the dark of which
-    /// nothing is asked in lx, hold it up until they had a fair chance, not for ever.
+    /// Whether the run need not go on: points where nothing was found, and those in the dark of
+    /// which nothing is asked in lx, hold it up until they had a fair chance, not for ever.
     pub(crate) may_end: bool,
 }
 
@@ -39,8 +39,7 @@ impl Standing {
         let replicates = settings.effective_replicates();
         let is_wanted = settings.has_tolerance() && replicates >= 2;
         let tries = estimates.samples as f64 * f64::from(replicates);
-        let had_a_chance =
-            |missed: bool| tries >= if missed { MIN_TRIES_OF_MISSED } else { MIN_TRIES };
+        let yardstick = Yardstick { settings, is_wanted, tries };
         let mut standing = Self {
             relative_widths: Vec::new(),
             excess: Vec::new(),
@@ -51,7 +50,6 @@ impl Standing {
             is_reached: is_wanted,
             may_end: is_wanted,
         };
-        let excess_of = |interval: &Interval| excess(interval, settings).filter(|_| is_wanted);
         for (sensor, figures) in estimates.sensors.iter().enumerate() {
             let unresolved = figures.resolved.iter().filter(|resolved| !**resolved).count();
             standing.unresolved += unresolved as u64;
@@ -60,36 +58,19 @@ impl Standing {
             match settings.tolerance_on {
                 ToleranceOn::Points => {
                     let found = estimates.found_point_intervals(sensor);
-                    let narrow = found.iter().map(excess_of);
-                    let is_narrow =
-                        |excess: Option<f64>| excess.is_some_and(|excess| excess <= 1.0);
-                    standing.narrow.extend(narrow.map(is_narrow));
-                    for (number, point) in points.iter().enumerate() {
-                        let excess = excess_of(point);
-                        let unseen_excess = figures.unseen.as_ref().map(|unseen| {
-                            unseen_excess(unseen.point_lx[number], point.value, settings)
-                        });
-                        let resolved = figures.resolved[number];
-                        let missed = figures.missed[number] || figures.contradicted[number];
-                        let target = Target { excess, unseen_excess, resolved };
-                        let is_given_up = match resolved {
-                            true => target.is_without_end() && had_a_chance(false),
-                            false => had_a_chance(missed),
-                        };
-                        standing.add(target, is_given_up);
-                    }
+                    let is_narrow = |point| yardstick.target(point, None, true).is_narrow();
+                    standing.narrow.extend(found.iter().map(is_narrow));
+                    standing.add_points(figures, &points, &yardstick);
                 }
                 ToleranceOn::Summary => {
-                    let average = estimates.found_average(sensor);
-                    let excess = excess_of(&average);
-                    let unseen_lx = estimates.unseen_of_average(sensor);
-                    let unseen_excess =
-                        unseen_lx.map(|lx| unseen_excess(lx, average.value, settings));
                     let misses =
                         [&figures.missed, &figures.contradicted].map(|of| of.contains(&true));
-                    let resolved = unresolved == 0 || had_a_chance(misses.contains(&true));
-                    let target = Target { excess, unseen_excess, resolved };
-                    let is_given_up = target.is_without_end() && had_a_chance(false);
+                    let resolved =
+                        unresolved == 0 || yardstick.had_a_chance(misses.contains(&true));
+                    let unseen_lx = estimates.unseen_of_average(sensor);
+                    let target =
+                        yardstick.target(&estimates.found_average(sensor), unseen_lx, resolved);
+                    let is_given_up = target.is_without_end() && yardstick.had_a_chance(false);
                     standing.narrow.extend(points.iter().map(|_| target.is_done()));
                     points.iter().for_each(|_| standing.add(target, is_given_up));
                 }
@@ -97,6 +78,26 @@ impl Standing {
         }
         standing.is_reached &= standing.unresolved == 0;
         standing
+    }
+
+    /// Adds all points of a sensor, each with a tolerance of its own.
+    fn add_points(
+        &mut self,
+        figures: &SensorEstimates,
+        points: &[Interval],
+        yardstick: &Yardstick<'_>,
+    ) {
+        for (number, point) in points.iter().enumerate() {
+            let unseen_lx = figures.unseen.as_ref().map(|unseen| unseen.point_lx[number]);
+            let resolved = figures.resolved[number];
+            let missed = figures.missed[number] || figures.contradicted[number];
+            let target = yardstick.target(point, unseen_lx, resolved);
+            let is_given_up = match resolved {
+                true => target.is_without_end() && yardstick.had_a_chance(false),
+                false => yardstick.had_a_chance(missed),
+            };
+            self.add(target, is_given_up);
+        }
     }
 
     /// The largest half-width over value; `None` without any.
@@ -112,6 +113,27 @@ impl Standing {
         self.done.push(done);
         self.is_reached &= done;
         self.may_end &= done || is_given_up;
+    }
+}
+
+/// What targets are measured by at a checkpoint.
+struct Yardstick<'s> {
+    settings: &'s Settings,
+    /// Whether there is a tolerance that can be reached.
+    is_wanted: bool,
+    /// Paths or photons so far, all replicates together.
+    tries: f64,
+}
+
+impl Yardstick<'_> {
+    fn had_a_chance(&self, missed: bool) -> bool {
+        self.tries >= if missed { MIN_TRIES_OF_MISSED } else { MIN_TRIES }
+    }
+
+    fn target(&self, interval: &Interval, unseen_lx: Option<f64>, resolved: bool) -> Target {
+        let excess = excess(interval, self.settings).filter(|_| self.is_wanted);
+        let unseen_excess = unseen_lx.map(|lx| unseen_excess(lx, interval.value, self.settings));
+        Target { excess, unseen_excess, resolved }
     }
 }
 
@@ -162,7 +184,6 @@ fn unseen_excess(unseen_lx: f64, value_lx: f64, settings: &Settings) -> f64 {
 mod tests {
     use super::*;
     use crate::settings::UnseenTolerance;
-    use crate::stats::estimates::SensorEstimates;
     use crate::stats::unseen::UnseenLight;
 
     /// Points of one sensor that all replicates agree on but for one part in a thousand, each with

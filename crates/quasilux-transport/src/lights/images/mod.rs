@@ -14,10 +14,10 @@ mod cone;
 mod emitters;
 #[cfg(test)]
 mod fixtures;
-mod hidden;
 mod light_path_class;
 mod planes;
 mod tree;
+mod unshown;
 
 use crate::lights::{Asking, ChoiceWork, EmitterPlace, EmitterPoint, PointLikes};
 use crate::spectrum::Spectrum;
@@ -33,8 +33,8 @@ use quasilux_sampling::choose_weights;
 use tree::{Imaged, Images};
 
 pub(crate) use chain::Links;
-pub(crate) use hidden::HiddenWay;
 pub(crate) use light_path_class::LightPathClass;
+pub(crate) use unshown::UnshownWay;
 
 /// Up to this number of images at a vertex are all tested; of more one is chosen.
 const ALL_TESTED: usize = 8;

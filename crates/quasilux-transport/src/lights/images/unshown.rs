@@ -10,7 +10,7 @@ use crate::world::{Facet, World};
 
 /// One kind of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum HiddenWay {
+pub(crate) enum UnshownWay {
     /// From luminous shapes by specular surfaces.
     FromShapes,
     /// Through refracting bodies.
@@ -21,7 +21,7 @@ pub(crate) enum HiddenWay {
     OverManyMirrors(u32),
 }
 
-impl HiddenWay {
+impl UnshownWay {
     /// As part of a sentence.
     pub(crate) fn in_words(self) -> String {
         match self {
@@ -40,40 +40,41 @@ impl HiddenWay {
 impl SpecularImages {
     /// What specular surfaces do with the light of points and luminaires that no image shows and no
     /// path finds.
-    pub(crate) fn hidden_ways<S: Spectrum>(
+    pub(crate) fn unshown_ways<S: Spectrum>(
         &self,
         world: &World<S>,
         lights: &Lights<'_>,
-    ) -> Vec<HiddenWay> {
+    ) -> Vec<UnshownWay> {
         let no_light = lights.pointlikes.is_empty() && lights.area_luminaires.is_empty();
         if no_light || !world.has_specular_facets() {
             return Vec::new();
         }
         let mut ways = Vec::new();
         if !lights.area_luminaires.is_empty() {
-            ways.push(HiddenWay::FromShapes);
+            ways.push(UnshownWay::FromShapes);
         }
         if has_refracting_bodies(world) {
-            ways.push(HiddenWay::ThroughBodies);
+            ways.push(UnshownWay::ThroughBodies);
         }
         if self.mirrors.curved_facets > 0 {
-            ways.push(HiddenWay::ByCurvedMirrors(self.mirrors.curved_facets));
+            ways.push(UnshownWay::ByCurvedMirrors(self.mirrors.curved_facets));
         }
         if self.images.goes_on {
             let depth = self.images.nodes.last().map_or(0, |image| image.depth);
-            ways.push(HiddenWay::OverManyMirrors(depth));
+            ways.push(UnshownWay::OverManyMirrors(depth));
         }
         ways
     }
 
-    /// The beginnings of classes of light paths that no path from a sensor makes, but by meeting the
-    /// disk of the sun by chance: a light and what stands behind it, such as "lamp, glass body".
-    pub(crate) fn hidden_classes<S: Spectrum>(
+    /// The beginnings of classes of light paths that no path from a sensor makes, but by meeting
+    /// the disk of the sun by chance: a light and what stands behind it, such as "lamp, glass
+    /// body".
+    pub(crate) fn unshown_classes<S: Spectrum>(
         &self,
         world: &World<S>,
         lights: &Lights<'_>,
     ) -> Vec<String> {
-        let ways = self.hidden_ways(world, lights);
+        let ways = self.unshown_ways(world, lights);
         let bodies = has_refracting_bodies(world).then_some("glass body");
         let mut specular: Vec<&str> = self.mirrors_in_words(world).collect();
         specular.extend(bodies);
@@ -81,17 +82,17 @@ impl SpecularImages {
         let mut add = |light: &str, what: &str| classes.push(format!("{light}, {what}"));
         for way in ways.iter().filter(|_| !lights.pointlikes.is_empty()) {
             match way {
-                HiddenWay::FromShapes => {}
-                HiddenWay::ThroughBodies => add("lamp", "glass body"),
-                HiddenWay::ByCurvedMirrors(_) => add("lamp", "curved mirror"),
-                HiddenWay::OverManyMirrors(0) => add("lamp", "mirror"),
-                HiddenWay::OverManyMirrors(1) => add("lamp", "2 mirrors or more"),
-                HiddenWay::OverManyMirrors(depth) => {
+                UnshownWay::FromShapes => {}
+                UnshownWay::ThroughBodies => add("lamp", "glass body"),
+                UnshownWay::ByCurvedMirrors(_) => add("lamp", "curved mirror"),
+                UnshownWay::OverManyMirrors(0) => add("lamp", "mirror"),
+                UnshownWay::OverManyMirrors(1) => add("lamp", "2 mirrors or more"),
+                UnshownWay::OverManyMirrors(depth) => {
                     add("lamp", &format!("{} mirrors or more", depth + 1));
                 }
             }
         }
-        if ways.contains(&HiddenWay::FromShapes) {
+        if ways.contains(&UnshownWay::FromShapes) {
             specular.iter().for_each(|what| add("luminous shape", what));
         }
         if lights.outside.as_ref().is_some_and(OutsideLight::has_sun) {
