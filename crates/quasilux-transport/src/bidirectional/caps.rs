@@ -58,7 +58,8 @@ impl Caps {
             [a.min(b).min(c), a.max(b).max(c)]
         };
         let peaks = Peaks::new(world);
-        let scatters = (0..world.facets.len()).filter(|it| peaks.of(world, *it as u32).value_sr > 0.0);
+        let scatters =
+            (0..world.facets.len()).filter(|it| peaks.of(world, *it as u32).value_sr > 0.0);
         let facets: Vec<usize> = scatters.collect();
         let boxes: Vec<[DVec3; 2]> = facets.iter().map(|it| corners(*it)).collect();
         let surfaces = Surfaces { world, peaks, tree: BoxTree::new(&boxes), facets };
@@ -90,7 +91,11 @@ impl Caps {
 
     /// Light in lx at each of some targets by ways on which no sample lay, at most; `trials` are
     /// the indices of each, of all replicates.
-    pub(super) fn unseen_lx(&self, targets: impl Iterator<Item = usize>, trials: impl Fn(usize) -> f64) -> Vec<f64> {
+    pub(super) fn unseen_lx(
+        &self,
+        targets: impl Iterator<Item = usize>,
+        trials: impl Fn(usize) -> f64,
+    ) -> Vec<f64> {
         let most = -libm::log(1.0 - UNSEEN_CONFIDENCE);
         targets
             .map(|target| {
@@ -137,7 +142,9 @@ impl<S: Spectrum> Class<'_, '_, '_, S> {
             return 0.0;
         }
         let straight_lx = match receiver.target {
-            Target::Cell { .. } => kind.straight_lx.or_else(|| Some(surfaces.on_cell(engine, receiver))),
+            Target::Cell { .. } => {
+                kind.straight_lx.or_else(|| Some(surfaces.on_cell(engine, receiver)))
+            }
             Target::Point { .. } => kind.straight_lx,
         };
         if let Some(straight_lx) = straight_lx {
@@ -176,7 +183,8 @@ fn kinds<S: Spectrum>(engine: &Engine<'_, '_, S>, surfaces: &Surfaces<'_, S>) ->
             LightKind::Luminaire(_) => (1, lights.flux_of_lm(number)),
             LightKind::Emitters => (2, lights.flux_of_lm(number)),
             LightKind::WayIn(way) => {
-                let most = lights.ways_in().map_or(0.0, |(outside, ways)| ways.most_lm(outside, way));
+                let most =
+                    lights.ways_in().map_or(0.0, |(outside, ways)| ways.most_lm(outside, way));
                 match lights.ways_in() {
                     Some((_, ways)) if ways.is_sun(way) => (4, most),
                     _ => (3, SKY_MARGIN * most),
@@ -313,7 +321,9 @@ impl<S: Spectrum> Lit<'_, '_, S> {
         let value_sr = FRAC_1_PI;
         self.surfaces.map_or(
             Peak { value_sr, with_cosine_sr: value_sr, is_lambertian: true },
-            |surfaces| surfaces.peaks.of(surfaces.world, surfaces.facets[part.facet as usize] as u32),
+            |surfaces| {
+                surfaces.peaks.of(surfaces.world, surfaces.facets[part.facet as usize] as u32)
+            },
         )
     }
 
@@ -415,11 +425,8 @@ impl<S: Spectrum> Bounded for Joined<'_, '_, S> {
     fn over_part(&self, part: &SeenPart) -> f64 {
         let position = self.receiver.position;
         let distance_m = part.distance_m(position) - self.reach_m();
-        let cos = if distance_m <= 0.0 {
-            1.0
-        } else {
-            self.cos(part.corners.into_iter(), distance_m)
-        };
+        let cos =
+            if distance_m <= 0.0 { 1.0 } else { self.cos(part.corners.into_iter(), distance_m) };
         if cos <= 0.0 {
             return 0.0;
         }
@@ -470,10 +477,8 @@ impl Receiver {
     pub(super) fn corners(&self) -> [DVec3; 4] {
         match self.target {
             Target::Point { .. } => [self.position; 4],
-            Target::Cell { grid, cell } => {
-                [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]]
-                    .map(|u| grid.point_in_cell(cell, u))
-            }
+            Target::Cell { grid, cell } => [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]]
+                .map(|u| grid.point_in_cell(cell, u)),
         }
     }
 }

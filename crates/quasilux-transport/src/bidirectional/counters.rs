@@ -23,9 +23,15 @@ pub(super) struct Counters {
 }
 
 enum Counter {
-    Disc { section: usize },
+    Disc {
+        section: usize,
+    },
     /// Cells of a grid, as the sections of those that count.
-    Cells { plane: GridPlane, behind: Option<GridPlane>, sections: Vec<(usize, usize)> },
+    Cells {
+        plane: GridPlane,
+        behind: Option<GridPlane>,
+        sections: Vec<(usize, usize)>,
+    },
 }
 
 /// What a photon adds.
@@ -91,37 +97,36 @@ impl Counters {
         if engine.context.max_bounces.is_some_and(|most| passing.bounces > most) {
             return;
         }
-        self.boxes.on_segment(flight.from, flight.direction, flight.length_m, |thing| {
-            match &self.things[thing as usize] {
-                Counter::Disc { section } => {
-                    let receiver = receivers[*section];
-                    if passing.is_computed_at_points() {
-                        return;
-                    }
-                    let Some(along_m) = receiver.crossed_at(flight.from, flight.direction) else {
-                        return;
-                    };
-                    if along_m < flight.length_m {
-                        let light = share(engine, receiver, passing, along_m, receiver.n);
-                        take(Crossing { section: *section, light, bounces: passing.bounces });
-                    }
+        self.boxes.on_segment(flight.from, flight.direction, flight.length_m, |thing| match &self
+            .things[thing as usize]
+        {
+            Counter::Disc { section } => {
+                let receiver = receivers[*section];
+                if passing.is_computed_at_points() {
+                    return;
                 }
-                Counter::Cells { plane, behind, sections } => {
-                    for plane in std::iter::once(plane).chain(behind) {
-                        let Some(cell) = plane.cell(flight) else { continue };
-                        let Ok(own) = sections.binary_search_by_key(&cell, |(cell, _)| *cell)
-                        else {
-                            continue;
-                        };
-                        let section = sections[own].1;
-                        let receiver = receivers[section];
-                        let tilt = plane.tilt_factor(flight.direction);
-                        let along_m = plane.distance_m(flight);
-                        if tilt > 0.0 {
-                            let light = share(engine, receiver, passing, along_m, receiver.n);
-                            let light = light * tilt;
-                            take(Crossing { section, light, bounces: passing.bounces });
-                        }
+                let Some(along_m) = receiver.crossed_at(flight.from, flight.direction) else {
+                    return;
+                };
+                if along_m < flight.length_m {
+                    let light = share(engine, receiver, passing, along_m, receiver.n);
+                    take(Crossing { section: *section, light, bounces: passing.bounces });
+                }
+            }
+            Counter::Cells { plane, behind, sections } => {
+                for plane in std::iter::once(plane).chain(behind) {
+                    let Some(cell) = plane.cell(flight) else { continue };
+                    let Ok(own) = sections.binary_search_by_key(&cell, |(cell, _)| *cell) else {
+                        continue;
+                    };
+                    let section = sections[own].1;
+                    let receiver = receivers[section];
+                    let tilt = plane.tilt_factor(flight.direction);
+                    let along_m = plane.distance_m(flight);
+                    if tilt > 0.0 {
+                        let light = share(engine, receiver, passing, along_m, receiver.n);
+                        let light = light * tilt;
+                        take(Crossing { section, light, bounces: passing.bounces });
                     }
                 }
             }
@@ -175,7 +180,9 @@ fn share<S: Spectrum>(
 fn cells_of_a_grid(receivers: &[&Receiver], first: usize) -> Range<usize> {
     let cell_after = |before: &Receiver, next: &Receiver| match (&before.target, &next.target) {
         (Target::Cell { grid: a, cell: m }, Target::Cell { grid: b, cell: n }) => {
-            m < n && a.origin == b.origin && [a.u, a.v, a.normal] == [b.u, b.v, b.normal]
+            m < n
+                && a.origin == b.origin
+                && [a.u, a.v, a.normal] == [b.u, b.v, b.normal]
                 && a.counts == b.counts
         }
         _ => false,

@@ -17,9 +17,7 @@ use crate::path::sections::WorkCounts;
 use crate::settings::Settings;
 use crate::spectrum::Spectrum;
 use crate::stats::decisions::Decisions;
-use crate::stats::estimates::{
-    Dimensions, Estimates, SensorEstimates, TermEstimates,
-};
+use crate::stats::estimates::{Dimensions, Estimates, SensorEstimates, TermEstimates};
 use crate::stats::tally::{Quantum, Sum};
 use crate::stats::targets::{by_sensor, targets};
 use crate::stats::unseen::UnseenLight;
@@ -71,11 +69,7 @@ impl Sums for Costs {
 }
 
 impl<'a, S: Spectrum> BidirectionalEstimator<'a, S> {
-    pub(crate) fn new(
-        context: &'a Context<'a, S>,
-        scene: &'a Scene,
-        settings: &Settings,
-    ) -> Self {
+    pub(crate) fn new(context: &'a Context<'a, S>, scene: &'a Scene, settings: &Settings) -> Self {
         let targets = targets(scene);
         let mut prepared_rays = 0;
         let mut exact = exact(context, &targets, &mut prepared_rays);

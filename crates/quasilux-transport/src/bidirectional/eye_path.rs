@@ -225,9 +225,8 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
         if context.max_bounces.is_some_and(|most| self.bounces >= most) {
             return false;
         }
-        let next = |sampler: &mut Sampler<'_>| {
-            bsdf.sample(wo, at.front, TransportMode::Radiance, sampler)
-        };
+        let next =
+            |sampler: &mut Sampler<'_>| bsdf.sample(wo, at.front, TransportMode::Radiance, sampler);
         if bsdf.is_specular() {
             let Some(next) = next(&mut self.sampler) else { return false };
             let goes_straight = next.wi.z < 0.0 && bsdf.straight_transmittance(1.0).is_some();
@@ -491,9 +490,9 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
         if outside.has_sun() {
             let u = self.sampler.next_2d();
             let [cd_m2, lx] = outside.sun_brightness();
-            let found = outside.sample_sun(u).and_then(|direction| {
-                sample(direction, cd_m2 / lx, cd_m2, true)
-            });
+            let found = outside
+                .sample_sun(u)
+                .and_then(|direction| sample(direction, cd_m2 / lx, cd_m2, true));
             self.ask(found, asker, work);
         }
     }
@@ -594,10 +593,8 @@ impl<S: Spectrum> Asker<'_, '_, S> {
             self.vertex.survival_pdf_sr(direction) * cos_there / square_m2,
             weights.towards(bsdf.survival_pdf_sr(wi, *wo)),
         );
-        let to_eye = product(
-            bsdf.survival_pdf_sr(*wo, wi) * cos / square_m2,
-            self.to_eye(direction),
-        );
+        let to_eye =
+            product(bsdf.survival_pdf_sr(*wo, wi) * cos / square_m2, self.to_eye(direction));
         let lx = cos * cos_there / square_m2 * of_connection(to_eye, to_light);
         let light = self.vertex.weight(direction) * *flux_lm * scattered * lx;
         let is_something = light.luminance() > 0.0 && light.luminance().is_finite();

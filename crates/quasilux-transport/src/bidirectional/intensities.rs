@@ -55,7 +55,8 @@ impl IntensityBound {
         let (low, high) = (theta_rad - angle_rad, theta_rad + angle_rad);
         // A bilinear function has no more between two nodes than at them.
         let after = self.theta_rad.partition_point(|node| *node < low).saturating_sub(1);
-        let end = (self.theta_rad.partition_point(|node| *node <= high) + 1).min(self.most_cd.len());
+        let end =
+            (self.theta_rad.partition_point(|node| *node <= high) + 1).min(self.most_cd.len());
         self.most_cd[after..end].iter().copied().fold(0.0, f64::max)
     }
 }

@@ -24,8 +24,6 @@ pub(super) struct Joiner<'r> {
     pub(super) n: DVec3,
     /// How far it is to the next vertex that is taken, in chances.
     pub(super) next: f64,
-    /// Whether it asks for their light.
-    pub(super) is_asking: bool,
 }
 
 impl Joiner<'_> {
@@ -49,9 +47,6 @@ impl Joiner<'_> {
             self.next -= self.receiver.join_probability(geometry_m2);
             if self.next < 0.0 {
                 self.next += 1.0;
-                if !self.is_asking {
-                    continue;
-                }
                 let distance_m = square_m2.sqrt();
                 let join = Join { direction: way / distance_m, distance_m, geometry_m2 };
                 join.ask(self, engine, who, vertex, shadows);
@@ -89,8 +84,7 @@ impl Join {
         let square_m2 = distance_m * distance_m;
         let cos = joiner.n.dot(direction);
         let joins = engine.plan.joins(joiner.receiver, geometry_m2);
-        let photons =
-            engine.plan.photons(joiner.receiver, is_narrow(bsdf));
+        let photons = engine.plan.photons(joiner.receiver, is_narrow(bsdf));
         let to_eye = product(bsdf.survival_pdf_sr(*wo, wi) * cos / square_m2, photons / joins);
         let to_light = product(
             cos * FRAC_1_PI * wi.z.abs() / square_m2,

@@ -98,12 +98,11 @@ impl<S> LightSubpaths<S> {
 }
 
 impl<S: Spectrum> LightSubpaths<S> {
-    /// Traces a subpath for each sampler to its end, and shows all flights with the number of their
-    /// subpath.
+    /// Traces a subpath for each sampler to its end, and shows all flights.
     pub(super) fn trace<'p>(
         engine: &Engine<'_, '_, S>,
         samplers: impl Iterator<Item = Sampler<'p>>,
-        mut pass: impl FnMut(usize, &Passing<'_, S>),
+        mut pass: impl FnMut(&Passing<'_, S>),
     ) -> Self {
         let world = &engine.context.world;
         let mut travelling: Vec<LightSubpath<'_, S>> = Vec::new();
@@ -113,7 +112,8 @@ impl<S: Spectrum> LightSubpaths<S> {
             travelling.extend(LightSubpath::new(engine, number, sampler));
         }
         let mut found: Vec<(usize, LightVertex<S>)> = Vec::new();
-        let (mut queries, mut hits, mut arrivals) = (Vec::new(), Vec::<Option<Hit>>::new(), Vec::new());
+        let (mut queries, mut hits, mut arrivals) =
+            (Vec::new(), Vec::<Option<Hit>>::new(), Vec::new());
         let mut rays = 0;
         for _ in 0..MAX_EVENTS {
             if travelling.is_empty() {
@@ -127,7 +127,7 @@ impl<S: Spectrum> LightSubpaths<S> {
             let mut arrivals = arrivals.iter();
             travelling.retain_mut(|subpath| {
                 let at = arrivals.next().and_then(Option::as_ref);
-                pass(subpath.number, &subpath.passing(at));
+                pass(&subpath.passing(at));
                 at.is_some_and(|at| subpath.arrive(engine, at, &mut found))
             });
         }
@@ -207,8 +207,7 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
                 let weights = weights.mirrored(next.wi.z.abs());
                 self.leg = Leg { weights, distance_m: 0.0, last, class: self.leg.class };
             }
-            self.leg.class =
-                self.leg.class.after(&context.images, bsdf, at.facet, next.wi.z > 0.0);
+            self.leg.class = self.leg.class.after(&context.images, bsdf, at.facet, next.wi.z > 0.0);
             return self.go_on(engine, at, &frame, next.wi, next.weight);
         }
         let weights = self.weights_at(engine, at, bsdf, wo.z);

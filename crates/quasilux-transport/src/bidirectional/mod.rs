@@ -1,4 +1,55 @@
-//! placeholder
+//! Bidirectional paths whose light subpaths serve all targets, and the bound on light that no
+//! sample met (`docs/unseen.md`).
+//!
+//! For each index a target gets one eye path, and the index `M` light subpaths, photons of all
+//! lights. A path from a light over the surfaces `x_1 .. x_k` to the target `x_0` is made by up to
+//! `k + 3` techniques. Each counts `f / (sum n_i p_i)`, the balance heuristic (Veach and Guibas
+//! 1995) over the densities `p_i` of all that can make the path, with the numbers `n_i` of their
+//! samples for an index; so no sample adds more than any technique alone would at its worst. All
+//! densities and numbers are functions of the path and of what was fixed before the first sample
+//! (`plan`), so weights add up to one.
+//!
+//! With `E_j` the density in m^-2 with which eye paths make `x_1 .. x_j`, `L_j` that with which
+//! light subpaths make `x_k .. x_j`:
+//!
+//! | technique | density | samples for an index | where |
+//! |---|---|---|---|
+//! | eye path asks for light | `E_k a`, a the choice of the lamp, of the place on it, of the direction to the sky or the sun | 1 | `eye_path` |
+//! | eye path runs into a facet, the sky or the sun | `E_k b`, b the density of its direction | 1 | `eye_path` |
+//! | eye path joined to a light vertex between | `E_j L_(j + 1)` | 1 | `eye_path` |
+//! | light vertex joined to the target | `L_1` | `J q`, q by cosines over squared distance | `joins` |
+//! | photon crosses the disc or cell of area A | `A L_1 l`, l the density of landing there | 1, or `M` where `x_1` is narrow | `counters` |
+//!
+//! A surface makes the next vertex with `min(pdf, f cos)`: roulette is part of the density
+//! ([`crate::bsdf::Bsdf::survival_pdf_sr`]). A lamp is left with half of its share of the flux and
+//! an even half (`sources`), an emitting facet by its flux; lines from outside have the density of
+//! [`crate::lights::Lights::ways_in`]. Vertices of mirrors and glass are joined to nothing. Panes
+//! that let light straight through are no vertices: the edge goes on behind them, and what they
+//! reflect of it counts in no density. Light of lamps without extent is computed at points, and
+//! over the mirrors that show it there.
+//!
+//! A photon counts as one for each eye path in weights, however many there are, but where the last
+//! surface sends much into few directions: the little that it blurs, and the noise of photons,
+//! would else be a large part of ordinary light.
+//!
+//! The most that a sample of technique i can add is bounded over classes of paths by caps on `f /
+//! p_i` (`caps`, `supremum`, `peaks`, `intensities`):
+//!
+//! | technique | cap of `f / p_i` | cannot make |
+//! |---|---|---|
+//! | asks a lamp without extent, one of few | `pi f_r` x the sum of illuminances / 0.9 | specular at the lamp |
+//! | asks the sun | `pi f_r` x its illuminance | specular at the sun |
+//! | asks or runs into facets, sky | `pi` x the largest luminance | |
+//! | joined to the target | flux / share x `f_r` x cosines over squared distance / q | specular last |
+//! | disc, cell | flux / share / A | |
+//!
+//! Luminaires with an area and lamps chosen from a table are bounded by joins and photons alone.
+//! Of narrow materials and of the sky suprema are looked up on grids, with a margin: all others are
+//! never too low. With 1 over the largest part that a scattering surface absorbs for K, see
+//! [`caps::Caps`] for what follows.
+//!
+//! Read on at `unit`, which traces all of this for some indices, and `estimator`.
+
 mod boxes;
 mod caps;
 mod counters;

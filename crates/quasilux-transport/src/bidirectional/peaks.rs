@@ -29,9 +29,8 @@ impl Peak {
             Bsdf::Mirror(_) | Bsdf::Dielectric(_) | Bsdf::Pane(_) => Self::default(),
             Bsdf::Diffuse(_) | Bsdf::Translucent(_) => {
                 let up = DVec3::Z;
-                let sides = [up, -up].map(|wi| {
-                    bsdf.evaluate(up, wi, true, TransportMode::Importance).max_channel()
-                });
+                let sides = [up, -up]
+                    .map(|wi| bsdf.evaluate(up, wi, true, TransportMode::Importance).max_channel());
                 let value_sr = sides[0].max(sides[1]);
                 Self { value_sr, with_cosine_sr: value_sr, is_lambertian: true }
             }

@@ -16,7 +16,7 @@ use std::f64::consts::{PI, TAU};
 /// Light subpaths of an index: so many at least, and at most.
 const SUBPATHS: [u64; 2] = [4, 512];
 /// Light subpaths that a target is joined to for each of its eye paths.
-const JOINED: u64 = 8;
+const JOINED: u64 = 32;
 /// Where only photons can bring some of the light, so many times as many.
 const MORE_WHERE_SPECULAR: u64 = 4;
 /// The radius of a disc in m, and as a share of the scene's size at most.

@@ -6,7 +6,7 @@ use super::unit::{INDICES, Unit, UnitSums};
 use crate::codec::{Reader, StateError, Stored, Writer};
 use crate::estimator::block::{BlockFrame, PathProgress};
 use crate::spectrum::Spectrum;
-use crate::stats::watch::{BlockCounts, Watch};
+use crate::stats::watch::{BlockCounts, Watch, split};
 use crate::stats::workers::BlockSize;
 use rayon::prelude::*;
 use std::ops::Range;
@@ -36,8 +36,7 @@ impl Row {
         let chunk = (number % self.chunks) as usize;
         let number = number / self.chunks;
         let first = (self.indices.start / INDICES + number / self.replicates) * INDICES;
-        let indices =
-            first.max(self.indices.start)..(first + INDICES).min(self.indices.end);
+        let indices = first.max(self.indices.start)..(first + INDICES).min(self.indices.end);
         let replicate = (number % self.replicates) as u32;
         let targets = &growing[chunk * TARGETS..((chunk + 1) * TARGETS).min(growing.len())];
         Unit { replicate, indices, targets }
@@ -64,7 +63,8 @@ impl<S: Spectrum> BidirectionalEstimator<'_, S> {
             return is_done;
         }
         let most = (ROUND / self.paths_of_a_unit()).max(UNITS);
-        for round in watch.rounds(self.done..row.len(), most) {
+        let pieces = watch.pieces(self.done..row.len(), self.paths_of_a_unit());
+        for round in pieces.flat_map(|piece| split(piece, most)) {
             let before = (self.costs.photons, self.costs.paths.paths, self.costs.paths.rays);
             let found: Vec<UnitSums> = round
                 .clone()
@@ -98,12 +98,7 @@ impl<S: Spectrum> BidirectionalEstimator<'_, S> {
 
     /// Has workers trace the units of a row, up to the checkpoint `coming`; `None` where there are
     /// no workers, `false` when the run was stopped.
-    fn trace_by_workers(
-        &mut self,
-        row: &Row,
-        coming: u64,
-        watch: &mut Watch<'_>,
-    ) -> Option<bool> {
+    fn trace_by_workers(&mut self, row: &Row, coming: u64, watch: &mut Watch<'_>) -> Option<bool> {
         let begins = vec![Some(0); self.ends.len()];
         let (samples, ends) = (self.samples, self.ends.clone());
         let progress = PathProgress { samples, coming, begins, ends };
@@ -150,8 +145,7 @@ impl<S: Spectrum> BidirectionalEstimator<'_, S> {
         if block.is_empty() || block.end > row.len() {
             return Err(StateError::Unfit("the range of a block"));
         }
-        let trace =
-            |number| row.unit(number, &self.growing).trace(&self.engine, self.quantum);
+        let trace = |number| row.unit(number, &self.growing).trace(&self.engine, self.quantum);
         let found: Vec<UnitSums> = block.clone().into_par_iter().map(trace).collect();
         let mut out = Writer::default();
         out.value(&block.start);

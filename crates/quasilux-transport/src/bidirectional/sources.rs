@@ -1,7 +1,7 @@
 //! Which light a photon leaves: half of the choices go by flux, half evenly, so that a faint lamp
 //! is never left out beside bright ones.
 
-use crate::lights::{Emission, Emitted, Line, LightKind, Lights};
+use crate::lights::{Emission, Emitted, LightKind, Lights, Line};
 use crate::spectrum::Spectrum;
 use crate::world::World;
 use glam::DVec3;

@@ -79,13 +79,18 @@ pub(super) fn supremum<S: Spectrum>(
         let facet = facets[thing as usize];
         SeenPart { corners: world.facets[facet].corners(), facet: thing }
     };
-    search(open.collect(), value, |number| match tree.inside(number) {
-        Inside::Boxes(children) => children.map(What::Box).into_iter().collect(),
-        Inside::Things(things) => things.iter().map(|it| What::Part(part(*it))).collect(),
-    }, |number| {
-        let node = tree.node(number);
-        value.over_box(node.low, node.high)
-    })
+    search(
+        open.collect(),
+        value,
+        |number| match tree.inside(number) {
+            Inside::Boxes(children) => children.map(What::Box).into_iter().collect(),
+            Inside::Things(things) => things.iter().map(|it| What::Part(part(*it))).collect(),
+        },
+        |number| {
+            let node = tree.node(number);
+            value.over_box(node.low, node.high)
+        },
+    )
 }
 
 /// The same over some triangles.

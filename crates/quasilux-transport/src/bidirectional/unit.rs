@@ -53,29 +53,26 @@ impl Unit<'_> {
             self.targets.iter().map(|target| &plan.receivers[*target]).collect();
         let empty = TargetSums::new(context.listed_terms);
         let mut sums = vec![empty; self.targets.len()];
-        let first = self.indices.start / INDICES * INDICES;
         let points = context.points(self.replicate, Stream::SharedSubpaths);
         // Subpaths that are connected must not have the same digits.
-        let samplers = (first..first + INDICES).flat_map(|index| {
+        let samplers = self.indices.clone().flat_map(|index| {
             let own = partner(index) * plan.subpaths;
             (own..own + plan.subpaths).map(|index| Sampler::new(&points, index))
         });
         let counters = Counters::new(&context.world, &receivers);
-        let index_of = |subpath: usize| first + subpath as u64 / plan.subpaths;
-        let light = LightSubpaths::trace(engine, samplers, |subpath, passing| {
-            if self.indices.contains(&index_of(subpath)) {
-                counters.cross(engine, &receivers, passing, |crossing| {
-                    let Crossing { section, light, bounces } = crossing;
-                    sums[section].add_merged(bounces, light.luminance(), quantum);
-                });
-            }
+        let light = LightSubpaths::trace(engine, samplers, |passing| {
+            counters.cross(engine, &receivers, passing, |crossing| {
+                let Crossing { section, light, bounces } = crossing;
+                sums[section].add_merged(bounces, light.luminance(), quantum);
+            });
         });
         let mut work = WorkCounts { rays: light.rays, ..WorkCounts::default() };
         work.endless += light.endless;
         work.rays += self.join(engine, &receivers, &light, quantum, &mut sums);
         let of_paths = self.gather(engine, &receivers, &light, quantum, &mut sums);
         work += of_paths;
-        UnitSums { sums, work, photons: INDICES * plan.subpaths }
+        let photons = (self.indices.end - self.indices.start) * plan.subpaths;
+        UnitSums { sums, work, photons }
     }
 
     /// Joins light vertices to the targets; the number of rays.
@@ -94,23 +91,19 @@ impl Unit<'_> {
         let mut asked = 0;
         for (section, (target, receiver)) in self.targets.iter().zip(receivers).enumerate() {
             let points = context.points(self.replicate, Stream::Joins(*target as u64));
-            let block = self.indices.start / INDICES * INDICES;
-            // Numbers of blocks, not their indices: multiples of a power of two are no even set.
-            let next = points.coordinate(block / INDICES, 2);
             let (position, n) = (receiver.position, receiver.n);
             let from = match receiver.target {
                 Target::Point { position, normal } => world.ray_origin_of_sensor(position, normal),
                 Target::Cell { .. } => world.ray_origin_of_sensor(position, n),
             };
-            let mut joiner = Joiner { receiver, from, n, next, is_asking: true };
-            // The whole block, so that parts of it are joined to the same vertices.
-            for index in block..self.indices.end {
-                joiner.is_asking = index >= self.indices.start;
+            let mut joiner = Joiner { receiver, from, n, next: 0.0 };
+            for (place, index) in (0..).zip(self.indices.clone()) {
                 if let Target::Cell { grid, cell } = receiver.target {
                     let u = [0, 1].map(|dimension| points.coordinate(index, dimension));
                     joiner.from = world.ray_origin_of_sensor(grid.point_in_cell(cell, u), n);
                 }
-                let first = (index % INDICES * plan.subpaths + plan.first_joined(*target, index)) as usize;
+                joiner.next = points.coordinate(index, 2);
+                let first = (place * plan.subpaths + plan.first_joined(*target, index)) as usize;
                 for subpath in first..first + plan.joined as usize {
                     joiner.join(engine, section as u32, light.of(subpath), &mut shadows);
                 }
@@ -147,9 +140,8 @@ impl Unit<'_> {
                 .collect();
             let starts = sections.zip(&points).flat_map(|(section, points)| {
                 let target = self.targets[section];
-                self.indices.clone().map(move |index| {
-                    let connected = plan.connected(target, index);
-                    let subpath = index % INDICES * plan.subpaths + connected;
+                (0..).zip(self.indices.clone()).map(move |(place, index)| {
+                    let subpath = place * plan.subpaths + plan.connected(target, index);
                     Start {
                         section,
                         receiver: receivers[section],

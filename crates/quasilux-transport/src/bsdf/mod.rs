@@ -319,9 +319,8 @@ impl<S: Spectrum> Bsdf<S> {
         // Seen from the side of `wo`; what has two sides scatters alike on both.
         let side = 1.0_f64.copysign(wo.z);
         let (wo, wi) = (wo * side, wi * side);
-        let scattered = || {
-            self.evaluate(wo, wi, true, TransportMode::Importance).max_channel() * wi.z.abs()
-        };
+        let scattered =
+            || self.evaluate(wo, wi, true, TransportMode::Importance).max_channel() * wi.z.abs();
         match self {
             Self::Diffuse(_) | Self::Translucent(_) => scattered(),
             Self::Mirror(_) | Self::Dielectric(_) | Self::Pane(_) => 0.0,

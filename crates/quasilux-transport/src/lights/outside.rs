@@ -216,9 +216,9 @@ impl<'a> OutsideLight<'a> {
     /// Luminance of the disk of the sun in cd/m^2, and what all of it gives on a plane across its
     /// rays in lx; 0 without one.
     pub(crate) fn sun_brightness(&self) -> [f64; 2] {
-        self.sun.as_ref().map_or([0.0; 2], |sun| {
-            [sun.luminance_cd_m2, sun.luminance_cd_m2 * sun.solid_angle_sr]
-        })
+        self.sun
+            .as_ref()
+            .map_or([0.0; 2], |sun| [sun.luminance_cd_m2, sun.luminance_cd_m2 * sun.solid_angle_sr])
     }
 
     /// What comes through one point of the openings or from a bright pixel, weighted against the

@@ -143,7 +143,8 @@ impl<'a> PointLikes<'a> {
         if self.lights.len() == 1 {
             return Some(Choice { number: 0, pdf: 1.0 });
         }
-        let around = |light: usize, around: &Surroundings| weight_around(self.lights[light], around);
+        let around =
+            |light: usize, around: &Surroundings| weight_around(self.lights[light], around);
         let chosen =
             self.choice.choose_without_candidates(place, u, around, self.weights(place), work)?;
         Some(Choice { number: chosen.light, pdf: chosen.pdf })
@@ -154,7 +155,8 @@ impl<'a> PointLikes<'a> {
         if self.lights.len() == 1 {
             return 1.0;
         }
-        let around = |light: usize, around: &Surroundings| weight_around(self.lights[light], around);
+        let around =
+            |light: usize, around: &Surroundings| weight_around(self.lights[light], around);
         self.choice.probability(number, place, around, self.weights(place))
     }
 

@@ -57,8 +57,7 @@ fn is_each_point_that_of_a_limited_run(scene: &Scene, settings: &Settings) {
 
 #[test]
 fn a_point_that_is_done_is_as_in_a_run_that_ends_there() {
-    for estimator in
-        [EstimatorKind::Path, EstimatorKind::Selected, EstimatorKind::BidirectionalMap]
+    for estimator in [EstimatorKind::Path, EstimatorKind::Selected, EstimatorKind::BidirectionalMap]
     {
         let settings = Settings { rel_tol: 0.06, ..settings(estimator) };
         is_each_point_that_of_a_limited_run(&screened(), &settings);

@@ -106,8 +106,7 @@ fn bounces_are_cut_where_wanted() {
         let estimates = run(&scene, &settings);
         estimates.interval_of(0, |lx| lx.iter().sum())
     };
-    let (alone, light_vertices) =
-        (of_one(EstimatorKind::Path), of_one(EstimatorKind::Selected));
+    let (alone, light_vertices) = (of_one(EstimatorKind::Path), of_one(EstimatorKind::Selected));
     let allowed = 1.5 * (alone.half_width.unwrap() + light_vertices.half_width.unwrap());
     assert!(allowed < 0.05 * alone.value, "{alone:?}, {light_vertices:?}");
     assert!((alone.value - light_vertices.value).abs() < allowed, "{alone:?}, {light_vertices:?}");

@@ -7,6 +7,7 @@ mod area_lights;
 mod area_lights_behind_panes;
 mod area_luminaires;
 mod balance;
+mod bidirectional;
 mod bits;
 mod cameras;
 mod connections;

@@ -89,6 +89,7 @@ fn runs() -> Vec<(&'static str, Scene, Settings)> {
     });
     let mut with_points = coloured.clone();
     with_points.sensors.push(points("points", &[(DVec3::new(1.0, 2.0, 0.7), DVec3::Z)]));
+    let bidirectional = with_points.clone();
     let mut caustics = glass_ball();
     caustics.lights.push(point_light(DVec3::new(1.3, 1.1, 1.9), 300.0));
     let settings = |estimator| Settings {
@@ -107,8 +108,7 @@ fn runs() -> Vec<(&'static str, Scene, Settings)> {
     };
     let guided = Settings { importance: Switch::On, ..photon.clone() };
     let listing = |estimator| Settings { list_terms: 2, ..settings(estimator) };
-    let light_vertices =
-        Settings { connections: Switch::On, ..listing(EstimatorKind::Selected) };
+    let light_vertices = Settings { connections: Switch::On, ..listing(EstimatorKind::Selected) };
     let mapped = Settings { connections: Switch::Off, ..settings(EstimatorKind::Selected) };
     let grown = Settings {
         map_adaptive: false,
@@ -127,6 +127,7 @@ fn runs() -> Vec<(&'static str, Scene, Settings)> {
         ("on maps that grow", with_points, grown),
         ("hidden light", caustics, of_hidden),
         ("auto", keyhole(), settings(EstimatorKind::Auto)),
+        ("bidirectional", bidirectional, listing(EstimatorKind::Bidirectional)),
     ]
 }
 

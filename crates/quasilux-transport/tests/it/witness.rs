@@ -114,8 +114,7 @@ fn plain_rooms_are_not_contradicted() {
                 intensity_cd: numbers.between(20.0, 200.0),
             }));
         }
-        let estimator =
-            if seed % 2 == 0 { EstimatorKind::Path } else { EstimatorKind::Selected };
+        let estimator = if seed % 2 == 0 { EstimatorKind::Path } else { EstimatorKind::Selected };
         let found = run(&scene, estimator, seed);
         assert_eq!(contradicted(&found), 0, "seed {seed}, {estimator:?}");
     }

@@ -175,12 +175,7 @@ impl OutsidePhotons {
 impl OutsidePhotons {
     /// Density in m^-2 sr^-1, across and over directions, of the photons of one way in along the
     /// line through a point with this direction; those of the sun or of the sky.
-    pub(crate) fn pdf_line(
-        &self,
-        outside: &OutsideLight<'_>,
-        way: usize,
-        line: &Line,
-    ) -> f64 {
+    pub(crate) fn pdf_line(&self, outside: &OutsideLight<'_>, way: usize, line: &Line) -> f64 {
         let way = &self.ways[way];
         let &Line { point, direction, of_sun } = line;
         let pdf_sr = match (&way.directions, of_sun) {
