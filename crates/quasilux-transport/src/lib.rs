@@ -26,7 +26,6 @@
 //! `daylight_factor`, the components of daylight; `settings`.
 
 mod annual;
-mod bidirectional;
 mod bsdf;
 mod codec;
 mod context;

@@ -1,6 +1,7 @@
 //! Estimators of sensor values, and the selection between them by pilots.
 
 pub(crate) mod auto;
+mod bidirectional;
 pub(crate) mod block;
 pub(crate) mod connection;
 pub(crate) mod control_variate;
@@ -11,10 +12,10 @@ pub(crate) mod pilot;
 pub(crate) mod selection;
 pub(crate) mod witness;
 
-use crate::bidirectional::BidirectionalEstimator;
 use crate::codec::{Reader, StateError, Writer};
 use crate::context::Context;
 use crate::estimator::auto::AutoEstimator;
+use crate::estimator::bidirectional::BidirectionalEstimator;
 use crate::estimator::block::BlockFrame;
 use crate::estimator::path_estimator::PathEstimator;
 use crate::estimator::photon_estimator::PhotonEstimator;

@@ -68,8 +68,8 @@ fn merged_parts_are_the_single_run() {
     let cases = [
         ("photon", "auto", 3),
         ("path", "auto", 16),
-        ("bidirectional", "on", 3),
-        ("bidirectional", "off", 3),
+        ("selected", "on", 3),
+        ("selected", "off", 3),
         ("bidirectional-map", "auto", 3),
     ];
     let mut numbers = Numbers(1);

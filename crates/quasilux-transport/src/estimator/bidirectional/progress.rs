@@ -51,7 +51,7 @@ impl<S: Spectrum> BidirectionalEstimator<'_, S> {
 
     /// Paths of a unit, at most.
     fn paths_of_a_unit(&self) -> u64 {
-        self.growing.len().min(TARGETS).max(1) as u64 * INDICES
+        self.growing.len().clamp(1, TARGETS) as u64 * INDICES
     }
 
     /// Traces all units with the indices up to `samples`; `false` when the observer stopped it.

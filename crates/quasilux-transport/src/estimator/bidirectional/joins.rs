@@ -40,7 +40,7 @@ impl Joiner<'_> {
             let way = vertex.at.position - self.from.position();
             let square_m2 = way.length_squared();
             let (front, behind) = (self.n.dot(way), -vertex.at.n.dot(way));
-            if !(front > 0.0) {
+            if front <= 0.0 {
                 continue;
             }
             let geometry_m2 = front * behind.abs() / (square_m2 * square_m2);

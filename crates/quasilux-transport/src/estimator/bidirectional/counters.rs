@@ -23,15 +23,16 @@ pub(super) struct Counters {
 }
 
 enum Counter {
-    Disc {
-        section: usize,
-    },
-    /// Cells of a grid, as the sections of those that count.
-    Cells {
-        plane: GridPlane,
-        behind: Option<GridPlane>,
-        sections: Vec<(usize, usize)>,
-    },
+    Disc { section: usize },
+    Cells(Box<Cells>),
+}
+
+/// Cells of a grid.
+struct Cells {
+    plane: GridPlane,
+    behind: Option<GridPlane>,
+    /// Those that count, in ascending order, each with its section.
+    sections: Vec<(usize, usize)>,
 }
 
 /// What a photon adds.
@@ -77,7 +78,7 @@ impl Counters {
                     let high = places.into_iter().fold(DVec3::NEG_INFINITY, DVec3::max) + margin;
                     corners.push([low, high]);
                     let behind = plane.behind();
-                    things.push(Counter::Cells { plane, behind, sections });
+                    things.push(Counter::Cells(Box::new(Cells { plane, behind, sections })));
                     section = of_grid.end;
                 }
             }

@@ -296,7 +296,9 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
     ) -> bool {
         let world = &engine.context.world;
         let survival = weight.max_channel().min(1.0);
-        if !(survival > 0.0) || !self.sampler.choose_bool(survival) {
+        // Not where it is no number.
+        let survives = survival > 0.0 && self.sampler.choose_bool(survival);
+        if !survives {
             return false;
         }
         self.beta = self.beta * weight * survival.recip();
