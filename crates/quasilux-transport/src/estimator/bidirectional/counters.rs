@@ -114,7 +114,8 @@ impl Counters {
                     take(Crossing { section: *section, light, bounces: passing.bounces });
                 }
             }
-            Counter::Cells { plane, behind, sections } => {
+            Counter::Cells(cells) => {
+                let Cells { plane, behind, sections } = cells.as_ref();
                 for plane in std::iter::once(plane).chain(behind) {
                     let Some(cell) = plane.cell(flight) else { continue };
                     let Ok(own) = sections.binary_search_by_key(&cell, |(cell, _)| *cell) else {
