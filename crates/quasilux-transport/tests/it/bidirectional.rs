@@ -25,8 +25,8 @@ fn agree(name: &str, scene: &Scene, [own, other]: [u64; 2], by: EstimatorKind) {
     let wanted = simulate(scene, &settings(by, other), &mut ()).point_intervals(0);
     for (point, (found, wanted)) in found.iter().zip(&wanted).enumerate() {
         let width = |half_width: Option<f64>| half_width.unwrap_or(f64::NAN);
-        let allowed =
-            1.7 * width(found.half_width).hypot(width(wanted.half_width)) + 0.002 * wanted.value;
+        let allowed = 1.7 * libm::hypot(width(found.half_width), width(wanted.half_width))
+            + 0.002 * wanted.value;
         let says = format!("{name}, point {point}: {found:?}, not {wanted:?}");
         assert!((found.value - wanted.value).abs() <= allowed, "{says}");
         assert!(width(found.half_width) < 0.06 * found.value, "{says}");
@@ -102,7 +102,7 @@ fn the_bound_is_no_larger_than_that_of_paths() {
         let estimates = run(&scene, 64);
         let unseen = estimates.sensors[0].unseen.as_ref().unwrap();
         let trials = 64.0 * 16.0;
-        let of_paths = 20.0_f64.ln() * PI * 100.0 / (1.0 - reflectance) / trials;
+        let of_paths = libm::log(20.0) * PI * 100.0 / (1.0 - reflectance) / trials;
         for lx in &unseen.point_lx {
             assert!(*lx > 0.0 && *lx <= of_paths * (1.0 + 1e-9), "{reflectance}: {lx} {of_paths}");
         }
@@ -154,7 +154,7 @@ fn white_room_with_a_hole(reflectance: f64, hole_m: f64) -> (Scene, f64) {
     scene.lights.push(point_light(DVec3::new(middle, middle, SIDE_M + ABOVE_M), 1000.0));
     // The solid angle of a square over whose middle the lamp is.
     let half_m2 = 0.25 * hole_m * hole_m;
-    let entering_lm = 1000.0 * 4.0 * (half_m2 / (half_m2 + ABOVE_M * ABOVE_M)).asin();
+    let entering_lm = 1000.0 * 4.0 * libm::asin(half_m2 / (half_m2 + ABOVE_M * ABOVE_M));
     (scene, entering_lm / (6.0 * SIDE_M * SIDE_M * (1.0 - reflectance)))
 }
 
