@@ -8,7 +8,7 @@ use super::boxes::BoxTree;
 use super::engine::Engine;
 use super::intensities::IntensityBound;
 use super::peaks::Peak;
-use super::plan::Receiver;
+use super::plan::{FoundBy, Receiver};
 use super::supremum::{Bounded, SeenPart, supremum, supremum_over};
 use crate::lights::LightKind;
 use crate::spectrum::Spectrum;
@@ -47,6 +47,8 @@ struct Kind {
     straight_lx: Option<f64>,
     /// Whether nothing but photons finds what comes over specular surfaces alone.
     is_hidden_by_mirrors: bool,
+    /// Who finds it past narrow surfaces.
+    found_by: FoundBy,
 }
 
 impl Caps {
@@ -131,7 +133,7 @@ impl<S: Spectrum> Class<'_, '_, '_, S> {
         let &Self { engine, receiver, kind, samples, .. } = self;
         let plan = &engine.plan;
         let disc = receiver.area_m2 / kind.flux_lm;
-        let all_photons = plan.subpaths as f64 * disc;
+        let all_photons = plan.photons(receiver, true, kind.found_by) / kind.flux_lm;
         let joined = plan.joined as f64 / (kind.flux_lm * self.joined_sr_m2);
         let [eye, met] = [kind.eye_lx.recip(), kind.met_lx.recip()];
         let mut largest = 0.0_f64;
@@ -209,6 +211,7 @@ fn kinds<S: Spectrum>(engine: &Engine<'_, '_, S>, surfaces: &Surfaces<'_, S>) ->
             met_lx: never,
             straight_lx: None,
             is_hidden_by_mirrors: images_hide,
+            found_by: FoundBy::Photons,
         },
         Kind {
             flux_lm: of_luminaires,
@@ -216,6 +219,7 @@ fn kinds<S: Spectrum>(engine: &Engine<'_, '_, S>, surfaces: &Surfaces<'_, S>) ->
             met_lx: never,
             straight_lx: Some(never),
             is_hidden_by_mirrors: true,
+            found_by: FoundBy::Photons,
         },
         Kind {
             flux_lm: of_emitters,
@@ -223,6 +227,7 @@ fn kinds<S: Spectrum>(engine: &Engine<'_, '_, S>, surfaces: &Surfaces<'_, S>) ->
             met_lx: largest_lx,
             straight_lx: Some(largest_lx),
             is_hidden_by_mirrors: true,
+            found_by: engine.emitters_found_by,
         },
         Kind {
             flux_lm: of_sky,
@@ -230,6 +235,7 @@ fn kinds<S: Spectrum>(engine: &Engine<'_, '_, S>, surfaces: &Surfaces<'_, S>) ->
             met_lx: sky_lx,
             straight_lx: Some(sky_lx),
             is_hidden_by_mirrors: true,
+            found_by: engine.sky_found_by,
         },
         Kind {
             flux_lm: of_sun,
@@ -237,6 +243,7 @@ fn kinds<S: Spectrum>(engine: &Engine<'_, '_, S>, surfaces: &Surfaces<'_, S>) ->
             met_lx: never,
             straight_lx: Some(sun_lx),
             is_hidden_by_mirrors: true,
+            found_by: FoundBy::Photons,
         },
     ];
     all.into_iter().filter(|kind| kind.flux_lm > 0.0).collect()

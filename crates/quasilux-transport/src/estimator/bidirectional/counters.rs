@@ -171,7 +171,7 @@ fn share<S: Spectrum>(
             (plan.joins(receiver, geometry_m2), is_narrow)
         }
     };
-    let photons = plan.photons(receiver, is_narrow);
+    let photons = plan.photons(receiver, is_narrow, passing.found_by(engine));
     let others = weights.times(alone, 1.0).towards(cos * FRAC_1_PI);
     let weight = photons / (photons + others);
     passing.flux_lm * (weight / (receiver.area_m2 * plan.subpaths as f64))

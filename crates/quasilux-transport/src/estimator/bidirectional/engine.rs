@@ -1,16 +1,56 @@
 //! What all subpaths need: the scene made ready, the shares of its lights, and the numbers of
 //! samples of each technique.
 
-use super::plan::Plan;
+use super::plan::{FoundBy, Plan};
 use super::sources::{Photon, Sources};
 use crate::context::Context;
 use crate::lights::LightKind;
+use crate::spectrum::Spectrum;
+use crate::stats::targets::Target;
+use std::f64::consts::PI;
 
 /// The scene, its lights, and the plan.
 pub(super) struct Engine<'l, 'a, S> {
     pub(super) context: &'l Context<'a, S>,
     pub(super) sources: Sources<'l, 'a>,
     pub(super) plan: Plan,
+    /// Who finds emitting facets past narrow surfaces, and the sky.
+    pub(super) emitters_found_by: FoundBy,
+    pub(super) sky_found_by: FoundBy,
+}
+
+impl<'l, 'a, S: Spectrum> Engine<'l, 'a, S> {
+    pub(super) fn new(context: &'l Context<'a, S>, targets: &[Target]) -> Self {
+        let lights = &context.lights;
+        let sources = Sources::new(lights);
+        let most_lm = |kind: fn(&LightKind) -> bool| {
+            let numbers = (0..lights.len()).filter(|number| kind(&lights.kind(*number)));
+            let flux_lm = numbers.map(|it| lights.flux_of_lm(it) / sources.share(it));
+            flux_lm.filter(|lm| lm.is_finite()).fold(0.0, f64::max)
+        };
+        let emitters_lx = lights.emitters.as_ref().map_or(0.0, |it| it.largest_lx());
+        let sky_lx = lights.outside.as_ref().map_or(0.0, |it| PI * it.brightest_cd_m2());
+        let emitters_lm = most_lm(|kind| *kind == LightKind::Emitters);
+        let outside_lm = most_lm(|kind| matches!(kind, LightKind::WayIn(_)));
+        Self {
+            context,
+            plan: Plan::new(context, targets),
+            emitters_found_by: FoundBy::of(emitters_lx, emitters_lm),
+            sky_found_by: FoundBy::of(sky_lx, outside_lm),
+            sources,
+        }
+    }
+
+    /// Who finds the light of a photon past narrow surfaces.
+    pub(super) fn found_by(&self, photon: &Photon) -> FoundBy {
+        match photon.kind {
+            LightKind::Emitters => self.emitters_found_by,
+            LightKind::WayIn(_) if !self.is_of_sun(photon) => self.sky_found_by,
+            LightKind::Pointlike(_) | LightKind::Luminaire(_) | LightKind::WayIn(_) => {
+                FoundBy::Photons
+            }
+        }
+    }
 }
 
 impl<S> Engine<'_, '_, S> {

@@ -4,7 +4,6 @@
 use super::caps::Caps;
 use super::engine::Engine;
 use super::plan::Plan;
-use super::sources::Sources;
 use super::sums::TargetSums;
 use super::unit::{INDICES, UnitSums};
 use crate::codec::{Reader, StateError, Sums, Writer, add_count, digest};
@@ -79,11 +78,9 @@ impl<'a, S: Spectrum> BidirectionalEstimator<'a, S> {
             *value_lx = 0.0;
             invalid_points += 1;
         }
-        let plan = Plan::new(context, &targets);
-        let sources = Sources::new(&context.lights);
+        let engine = Engine::new(context, &targets);
         let replicates = settings.effective_replicates();
         let empty = TargetSums::new(context.listed_terms);
-        let engine = Engine { context, sources, plan };
         Self {
             caps: Caps::new(&engine, scene),
             engine,

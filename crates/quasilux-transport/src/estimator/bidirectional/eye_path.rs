@@ -3,7 +3,7 @@
 
 use super::engine::Engine;
 use super::light_subpath::{LightSubpaths, LightVertex, is_narrow};
-use super::plan::Receiver;
+use super::plan::{FoundBy, Receiver};
 use super::sums::TargetSums;
 use crate::bsdf::TransportMode;
 use crate::cutoff::MAX_EVENTS;
@@ -67,7 +67,7 @@ struct EyePath<'p, S> {
     /// Those of them that are vertices.
     vertices: u32,
     /// Having left its last vertex.
-    weights: SubpathWeights,
+    weights: EyeWeights,
     /// Where it last asked for light; `None` since it was mirrored or refracted.
     asked_from: Option<Asking>,
     /// Bounces behind the light that it last asked for.
@@ -77,7 +77,24 @@ struct EyePath<'p, S> {
 /// What is asked at a vertex.
 struct Asker<'v, 'w, S> {
     vertex: &'v Vertex<'w, S>,
-    weights: SubpathWeights,
+    weights: EyeWeights,
+}
+
+/// What an eye path weighs, by who finds a light past narrow surfaces ([`FoundBy`]).
+#[derive(Clone, Copy)]
+struct EyeWeights([SubpathWeights; 2]);
+
+impl EyeWeights {
+    fn of(self, found: FoundBy) -> SubpathWeights {
+        match found {
+            FoundBy::EyePaths => self.0[0],
+            FoundBy::Photons => self.0[1],
+        }
+    }
+
+    fn map(self, change: impl Fn(SubpathWeights) -> SubpathWeights) -> Self {
+        Self(self.0.map(change))
+    }
 }
 
 impl<S> Default for EyePaths<S> {
@@ -189,12 +206,13 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
             beta: S::white() * PI,
             bounces: 0,
             vertices: 0,
-            weights: SubpathWeights::new(1.0 / pdf_sr, local.z / pdf_sr),
+            weights: EyeWeights([SubpathWeights::new(1.0 / pdf_sr, local.z / pdf_sr); 2]),
             asked_from: Some(Asking::at(vertex)),
             bounces_asked: 0,
         };
         // Photons that come straight.
-        let weights = SubpathWeights::new(engine.plan.photons(receiver, false), 0.0);
+        let photons = engine.plan.photons(receiver, false, FoundBy::Photons);
+        let weights = EyeWeights([SubpathWeights::new(photons, 0.0); 2]);
         work.shadows.max_bounces = context.max_bounces.unwrap_or(u32::MAX);
         let asker = &Asker { vertex, weights };
         if receiver.is_cell() {
@@ -220,7 +238,7 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
         let surface = &Surface::new(&context.world, at, self.direction);
         let &Surface { bsdf, frame, wo, .. } = surface;
         let distance_m = self.distance_m + at.distance_m;
-        let arrived = self.weights.arrived(distance_m, wo.z);
+        let arrived = self.weights.map(|it| it.arrived(distance_m, wo.z));
         self.add_emitted(engine, at, arrived, found);
         if context.max_bounces.is_some_and(|most| self.bounces >= most) {
             return false;
@@ -234,7 +252,7 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
                 self.distance_m = distance_m;
             } else {
                 let here = self.first_surface(engine, arrived, bsdf, 0.0);
-                self.weights = here.mirrored(next.wi.z.abs());
+                self.weights = here.map(|it| it.mirrored(next.wi.z.abs()));
                 self.distance_m = 0.0;
                 self.vertices += 1;
                 self.asked_from = None;
@@ -258,7 +276,8 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
         self.connect(engine, asker, work);
         let Some(next) = next(&mut self.sampler) else { return false };
         let pdfs_sr = [bsdf.survival_pdf_sr(wo, next.wi), bsdf.survival_pdf_sr(next.wi, wo)];
-        self.weights = here.scattered(next.wi.z.abs(), pdfs_sr[0], pdfs_sr[1]);
+        let cos = next.wi.z.abs();
+        self.weights = here.map(|it| it.scattered(cos, pdfs_sr[0], pdfs_sr[1]));
         self.distance_m = 0.0;
         self.asked_from = Some(Asking::at(vertex));
         self.go_on(engine, at, &frame, next.wi, next.weight)
@@ -273,16 +292,19 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
     fn first_surface(
         &self,
         engine: &Engine<'_, '_, S>,
-        arrived: SubpathWeights,
+        arrived: EyeWeights,
         bsdf: &crate::bsdf::Bsdf<S>,
         geometry_m2: f64,
-    ) -> SubpathWeights {
+    ) -> EyeWeights {
         if self.vertices > 0 {
             return arrived;
         }
         let Engine { plan, .. } = engine;
-        let photons = plan.photons(self.receiver, is_narrow(bsdf));
-        arrived.times(plan.joins(self.receiver, geometry_m2), photons)
+        let joins = plan.joins(self.receiver, geometry_m2);
+        EyeWeights(FoundBy::BOTH.map(|found| {
+            let photons = plan.photons(self.receiver, is_narrow(bsdf), found);
+            arrived.of(found).times(joins, photons)
+        }))
     }
 
     /// Survives as its weight says, and leaves.
@@ -313,7 +335,7 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
         &self,
         engine: &Engine<'_, '_, S>,
         at: &Interaction,
-        arrived: SubpathWeights,
+        arrived: EyeWeights,
         found: &mut Found<'_>,
     ) {
         let context = engine.context;
@@ -325,14 +347,16 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
             self.asked_from.map_or(0.0, |place| emitters.pdf_m2(&context.world, place, asked));
         let cos = at.n.dot(self.direction).abs();
         let emission = engine.sources.of_emitters_per_lm() * emitted_cd_m2 * cos;
-        let weight = self.straight(engine, arrived).of_hit(pdf_m2, emission);
+        let weights = self.straight(engine, arrived).of(engine.emitters_found_by);
+        let weight = weights.of_hit(pdf_m2, emission);
         found.add(self.section, self.bounces, self.beta * (emitted_cd_m2 * weight));
     }
 
     /// What it weighs where it runs into a light: straight from the start photons take part.
-    fn straight(&self, engine: &Engine<'_, '_, S>, weights: SubpathWeights) -> SubpathWeights {
+    fn straight(&self, engine: &Engine<'_, '_, S>, weights: EyeWeights) -> EyeWeights {
+        let photons = engine.plan.photons(self.receiver, false, FoundBy::Photons);
         match self.vertices {
-            0 => weights.times(1.0, engine.plan.photons(self.receiver, false)),
+            0 => weights.map(|it| it.times(1.0, photons)),
             _ => weights,
         }
     }
@@ -343,7 +367,10 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
         let (direction, position) = (self.direction, self.from.position());
         let weights = self.straight(engine, self.weights);
         let share = |asked_sr: f64, of_sun: bool| {
-            weights.of_hit(asked_sr, engine.sources.pdf_line(position, -direction, of_sun))
+            let found_by = if of_sun { FoundBy::Photons } else { engine.sky_found_by };
+            weights
+                .of(found_by)
+                .of_hit(asked_sr, engine.sources.pdf_line(position, -direction, of_sun))
         };
         let sky_cd_m2 = outside.luminance_cd_m2(direction);
         if sky_cd_m2 != 0.0 {
@@ -447,7 +474,8 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
         let u = self.sampler.next_2d();
         let per_lm = engine.sources.of_emitters_per_lm();
         let beside_sr = |point: &EmitterPoint| {
-            let landed = product(per_lm * point.lx_sr, asker.to_eye(point.direction));
+            let to_eye = asker.to_eye(point.direction, engine.emitters_found_by);
+            let landed = product(per_lm * point.lx_sr, to_eye);
             asker.vertex.survival_pdf_sr(point.direction) + landed
         };
         let sample = emitters.light_sample(
@@ -474,7 +502,8 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
                 return None;
             }
             let line = engine.sources.pdf_line(vertex.position(), -direction, of_sun);
-            let landed = product(line * cos / pdf_sr, asker.to_eye(direction));
+            let found_by = if of_sun { FoundBy::Photons } else { engine.sky_found_by };
+            let landed = product(line * cos / pdf_sr, asker.to_eye(direction, found_by));
             let hit = vertex.survival_pdf_sr(direction) / pdf_sr;
             let lx = cd_m2 * cos / pdf_sr * of_connection(landed, hit);
             let light = vertex.weight(direction) * lx;
@@ -560,14 +589,15 @@ struct Connection<'l, S> {
 impl<S: Spectrum> Asker<'_, '_, S> {
     /// The techniques that leave this vertex and more to light subpaths, over the density with
     /// which light that comes from `direction` makes it.
-    fn to_eye(&self, direction: DVec3) -> f64 {
-        self.weights.towards(self.vertex.reverse_survival_pdf_sr(direction))
+    fn to_eye(&self, direction: DVec3, found: FoundBy) -> f64 {
+        self.weights.of(found).towards(self.vertex.reverse_survival_pdf_sr(direction))
     }
 
     /// The part of the light of a lamp that photons leave, where it is asked with this probability.
     fn beside_landings(&self, sample: LightSample<S>, per_lm: f64, pdf: f64) -> LightSample<S> {
         let landings = per_lm * sample.illuminance_lx / pdf;
-        let share = of_connection(product(landings, self.to_eye(sample.direction)), 0.0);
+        let to_eye = self.to_eye(sample.direction, FoundBy::Photons);
+        let share = of_connection(product(landings, to_eye), 0.0);
         LightSample { light: sample.light * (share / pdf), ..sample }
     }
 
@@ -577,7 +607,7 @@ impl<S: Spectrum> Asker<'_, '_, S> {
         engine: &Engine<'_, '_, S>,
         light_vertex: &'l LightVertex<S>,
     ) -> Option<Connection<'l, S>> {
-        let LightVertex { at, frame, wo, flux_lm, weights, .. } = light_vertex;
+        let LightVertex { at, frame, wo, flux_lm, weights, found_by, .. } = light_vertex;
         let way = at.position - self.vertex.position();
         let square_m2 = way.length_squared();
         let distance_m = square_m2.sqrt();
@@ -595,8 +625,10 @@ impl<S: Spectrum> Asker<'_, '_, S> {
             self.vertex.survival_pdf_sr(direction) * cos_there / square_m2,
             weights.towards(bsdf.survival_pdf_sr(wi, *wo)),
         );
-        let to_eye =
-            product(bsdf.survival_pdf_sr(*wo, wi) * cos / square_m2, self.to_eye(direction));
+        let to_eye = product(
+            bsdf.survival_pdf_sr(*wo, wi) * cos / square_m2,
+            self.to_eye(direction, *found_by),
+        );
         let lx = cos * cos_there / square_m2 * of_connection(to_eye, to_light);
         let light = self.vertex.weight(direction) * *flux_lm * scattered * lx;
         let is_something = light.luminance() > 0.0 && light.luminance().is_finite();

@@ -74,7 +74,7 @@ impl Join {
         shadows: &mut ShadowQueue<S>,
     ) {
         let &Self { direction, distance_m, geometry_m2 } = self;
-        let LightVertex { at, frame, wo, flux_lm, bounces, weights } = vertex;
+        let LightVertex { at, frame, wo, flux_lm, bounces, weights, found_by } = vertex;
         let bsdf = engine.context.world.bsdf(at);
         let wi = frame.to_local(-direction);
         if wi.z <= 0.0 && !(wi.z < 0.0 && bsdf.transmits()) {
@@ -84,7 +84,7 @@ impl Join {
         let square_m2 = distance_m * distance_m;
         let cos = joiner.n.dot(direction);
         let joins = engine.plan.joins(joiner.receiver, geometry_m2);
-        let photons = engine.plan.photons(joiner.receiver, is_narrow(bsdf));
+        let photons = engine.plan.photons(joiner.receiver, is_narrow(bsdf), *found_by);
         let to_eye = product(bsdf.survival_pdf_sr(*wo, wi) * cos / square_m2, photons / joins);
         let to_light = product(
             cos * FRAC_1_PI * wi.z.abs() / square_m2,

@@ -4,6 +4,7 @@
 //! Flat panes that let light straight through are no vertices: they lie on the edges between them.
 
 use super::engine::Engine;
+use super::plan::FoundBy;
 use super::sources::Photon;
 use crate::bsdf::{Bsdf, TransportMode};
 use crate::cutoff::MAX_EVENTS;
@@ -31,6 +32,7 @@ pub(super) struct LightVertex<S> {
     /// Surfaces and panes before this one.
     pub(super) bounces: u32,
     pub(super) weights: SubpathWeights,
+    pub(super) found_by: FoundBy,
 }
 
 /// A light subpath on its way.
@@ -212,7 +214,9 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
         }
         let weights = self.weights_at(engine, at, bsdf, wo.z);
         let (flux_lm, bounces) = (self.flux_lm, self.bounces);
-        found.push((self.number, LightVertex { at: *at, frame, wo, flux_lm, bounces, weights }));
+        let found_by = engine.found_by(&self.photon);
+        let vertex = LightVertex { at: *at, frame, wo, flux_lm, bounces, weights, found_by };
+        found.push((self.number, vertex));
         let Some(next) = next(&mut self.sampler) else { return false };
         let cos = next.wi.z.abs();
         let pdfs_sr = [bsdf.survival_pdf_sr(wo, next.wi), bsdf.survival_pdf_sr(next.wi, wo)];
@@ -273,6 +277,11 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
 }
 
 impl<S: Spectrum> Passing<'_, S> {
+    /// Who finds its light past narrow surfaces.
+    pub(super) fn found_by(&self, engine: &Engine<'_, '_, S>) -> FoundBy {
+        engine.found_by(self.photon)
+    }
+
     /// Whether it comes straight from a light without an extent, perhaps by mirrors that show it.
     pub(super) fn is_computed_at_points(&self) -> bool {
         matches!(self.leg.class, LightPathClass::Shown(_))

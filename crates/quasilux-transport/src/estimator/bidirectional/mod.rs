@@ -18,7 +18,7 @@
 //! | eye path runs into a facet, the sky or the sun | `E_k b`, b the density of its direction | 1 | `eye_path` |
 //! | eye path joined to a light vertex between | `E_j L_(j + 1)` | 1 | `eye_path` |
 //! | light vertex joined to the target | `L_1` | `J q`, q by cosines over squared distance | `joins` |
-//! | photon crosses the disc or cell of area A | `A L_1 l`, l the density of landing there | 1, or `M` where `x_1` is narrow | `counters` |
+//! | photon crosses the disc or cell of area A | `A L_1 l`, l the density of landing there | 1, or `M` where `x_1` is narrow and eye paths hardly meet the light | `counters` |
 //!
 //! A surface makes the next vertex with `min(pdf, f cos)`: roulette is part of the density
 //! ([`crate::bsdf::Bsdf::survival_pdf_sr`]). A lamp is left with half of its share of the flux and

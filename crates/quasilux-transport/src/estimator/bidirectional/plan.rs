@@ -25,6 +25,25 @@ const SHARE_OF_SIZE: f64 = 1.0 / 64.0;
 /// Directions in which walls are looked for in the plane of a disc.
 const LOOKS: u32 = 64;
 
+/// Who finds the light of a kind of lights past narrow surfaces.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum FoundBy {
+    /// Eye paths, which run into it: no photon needs to blur it.
+    EyePaths,
+    Photons,
+}
+
+impl FoundBy {
+    pub(super) const BOTH: [Self; 2] = [Self::EyePaths, Self::Photons];
+
+    /// Where a path that runs into the light finds `met_lx` at most, and a photon stands for this
+    /// flux.
+    pub(super) fn of(met_lx: f64, flux_lm: f64) -> Self {
+        let on_a_disc_lx = flux_lm / (PI * RADIUS_M * RADIUS_M);
+        if met_lx <= on_a_disc_lx { Self::EyePaths } else { Self::Photons }
+    }
+}
+
 /// Numbers of samples for each index.
 #[derive(Clone, Debug)]
 pub(super) struct Plan {
@@ -72,10 +91,11 @@ impl Plan {
         (target as u64).wrapping_add(index) % self.subpaths
     }
 
-    /// Photons that count in weights, for each eye path, where the last surface is narrow or not,
-    /// over those that land on a square metre.
-    pub(super) fn photons(&self, receiver: &Receiver, is_narrow: bool) -> f64 {
-        receiver.area_m2 * if is_narrow { self.subpaths as f64 } else { 1.0 }
+    /// Photons that count in weights, for each eye path, over those that land on a square metre:
+    /// all of them where the last surface is narrow and eye paths hardly find the light past it.
+    pub(super) fn photons(&self, receiver: &Receiver, is_narrow: bool, found: FoundBy) -> f64 {
+        let all = is_narrow && found == FoundBy::Photons;
+        receiver.area_m2 * if all { self.subpaths as f64 } else { 1.0 }
     }
 
     /// Joins that are made of a light vertex, on average, for each eye path.
