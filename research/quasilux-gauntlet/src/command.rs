@@ -3,11 +3,11 @@
 use crate::digest::Fnv;
 use crate::effort::{Effort, HELP, Part, RoomName};
 use crate::families;
+use crate::families::room_of;
 use crate::record::{self, RunKey, RunRecord};
 use crate::references::{ReferenceStore, RoomReferences};
 use crate::report::{Report, Subject};
 use crate::room::Room;
-use crate::room_of;
 use crate::trial::Stage;
 use crate::truth::{self, DiscReferences, Truth};
 use quasilux_transport::Settings;

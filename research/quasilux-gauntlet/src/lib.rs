@@ -32,23 +32,13 @@ pub mod truth;
 
 pub use brute_scene::{brute_parts, brute_scene};
 pub use dice::Parameter;
+pub use families::room_of;
 pub use project::{NamedFile, ProjectFiles, Slot};
 pub use report::{Report, Subject};
 pub use room::{
     Face, Found, Lamp, Lookout, Outside, Parallelogram, Room, SensorPlace, Shine, SkyKind,
     SunPlace, Surface,
 };
-
-use dice::Dice;
-
-/// The room of this number in the family of this name; `None` where there is no such family.
-#[must_use]
-pub fn room_of(family: &str, number: u64) -> Option<Room> {
-    let family = families::ALL.iter().find(|known| known.name == family)?;
-    let mut dice = Dice::new(family.name, number);
-    let room = (family.make)(&mut dice);
-    Some(Room { number, family: family.name, parameters: dice.drawn, ..room })
-}
 
 #[cfg(test)]
 mod tests;

@@ -177,7 +177,7 @@ mod tests {
     #[test]
     fn shipped_references_are_of_rooms_that_are_made() {
         for known in shipped_references() {
-            let room = crate::room_of(&known.family, known.number);
+            let room = crate::families::room_of(&known.family, known.number);
             assert!(
                 room.is_some_and(|room| known.fits(&room)),
                 "{} {}",

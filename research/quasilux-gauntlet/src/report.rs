@@ -89,7 +89,7 @@ fn by_family(text: &mut String, count: &Counting<'_>) {
         if own.runs + own.refused + own.crashed == 0 {
             continue;
         }
-        let room = name.and_then(|name| crate::room_of(name, 0));
+        let room = name.and_then(|name| crate::families::room_of(name, 0));
         let witness = room.map(|room| room.witness().join(", ")).unwrap_or_default();
         put(
             text,

@@ -90,7 +90,16 @@ const MAY_USE: [(&str, &[&str]); 17] = [
             "quasilux-report",
         ],
     ),
-    ("quasilux-gauntlet", &["quasilux-transport", "quasilux-scene", "quasilux-brute"]),
+    (
+        "quasilux-gauntlet",
+        &[
+            "quasilux-transport",
+            "quasilux-scene",
+            "quasilux-brute",
+            "quasilux-inspection",
+            "quasilux-bvh",
+        ],
+    ),
 ];
 
 /// Those above all others, whose rows in the page say so.

@@ -79,3 +79,12 @@ pub(crate) const ALL: [Family; 51] = [
     Family { name: "skylights", make: sky::skylights },
     Family { name: "wall of mirror", make: facets::mirror_wall },
 ];
+
+/// The room of this number in the family of this name; `None` where there is no such family.
+#[must_use]
+pub fn room_of(family: &str, number: u64) -> Option<Room> {
+    let family = ALL.iter().find(|known| known.name == family)?;
+    let mut dice = Dice::new(family.name, number);
+    let room = (family.make)(&mut dice);
+    Some(Room { number, family: family.name, parameters: dice.drawn, ..room })
+}

@@ -1,0 +1,276 @@
+//! What eye paths ask for at their vertices: light of one light of each kind, and that of a light
+//! subpath.
+
+use super::{EyePath, EyePaths, EyeWeights};
+use crate::bsdf::TransportMode;
+use crate::estimator::bidirectional::engine::Engine;
+use crate::estimator::bidirectional::light_subpath::LightVertex;
+use crate::estimator::bidirectional::plan::FoundBy;
+use crate::lights::{Asking, Choice, EmitterPoint};
+use crate::path::subpath_weights::{of_connection, product};
+use crate::spectrum::Spectrum;
+use crate::world::vertex::Vertex;
+use crate::world::visibility::LightSample;
+use glam::DVec3;
+use quasilux_bvh::RayQuery;
+use quasilux_sampling::choose_weights;
+
+/// Light vertices that are looked at from an eye vertex.
+const CANDIDATES: usize = 4;
+
+/// What is asked at a vertex.
+pub(super) struct Asker<'v, 'w, S> {
+    pub(super) vertex: &'v Vertex<'w, S>,
+    pub(super) weights: EyeWeights,
+}
+
+impl<S: Spectrum> EyePath<'_, S> {
+    /// Asks for the light of every light without extent.
+    pub(super) fn ask_all_pointlikes(
+        &self,
+        engine: &Engine<'_, '_, S>,
+        asker: &Asker<'_, '_, S>,
+        work: &mut EyePaths<S>,
+    ) {
+        let pointlikes = &engine.context.lights.pointlikes;
+        for number in 0..pointlikes.len() {
+            let sample = pointlikes.light_sample_of(number, asker.vertex);
+            let per_lm = engine.sources.per_lm(number);
+            self.ask(sample.map(|it| asker.beside_landings(it, per_lm, 1.0)), asker, work);
+        }
+    }
+
+    /// Asks for the light of one light without extent.
+    pub(super) fn ask_pointlike(
+        &mut self,
+        engine: &Engine<'_, '_, S>,
+        asker: &Asker<'_, '_, S>,
+        work: &mut EyePaths<S>,
+    ) {
+        let pointlikes = &engine.context.lights.pointlikes;
+        if pointlikes.is_empty() {
+            return;
+        }
+        let u = if pointlikes.len() > 1 { self.sampler.next_1d() } else { 0.0 };
+        let place = Asking::at(asker.vertex);
+        let Some(Choice { number, pdf }) = pointlikes.choose(place, u, &mut work.choice) else {
+            let sample = LightSample::without_choice(work.choice.total());
+            self.ask(sample, asker, work);
+            return;
+        };
+        let sample = pointlikes.light_sample_of(number, asker.vertex);
+        let per_lm = engine.sources.per_lm(number);
+        self.ask(sample.map(|it| asker.beside_landings(it, per_lm, pdf)), asker, work);
+    }
+
+    /// Asks for the light of lights with an extent, and from outside.
+    pub(super) fn ask_areas(
+        &mut self,
+        engine: &Engine<'_, '_, S>,
+        asker: &Asker<'_, '_, S>,
+        work: &mut EyePaths<S>,
+    ) {
+        self.ask_luminaire(engine, asker, work);
+        self.ask_emitter(engine, asker, work);
+        self.ask_outside(engine, asker, work);
+    }
+
+    fn ask_luminaire(
+        &mut self,
+        engine: &Engine<'_, '_, S>,
+        asker: &Asker<'_, '_, S>,
+        work: &mut EyePaths<S>,
+    ) {
+        let luminaires = &engine.context.lights.area_luminaires;
+        if luminaires.is_empty() {
+            return;
+        }
+        let u = self.sampler.next_2d();
+        let vertex = asker.vertex;
+        let chosen = luminaires.choose(Asking::at(vertex), u, &mut work.choice);
+        let Some((Choice { number, pdf }, place)) = chosen else { return };
+        let cos = |direction| vertex.cos(direction);
+        let incidence = luminaires.incidence(number, &place, vertex.position(), cos);
+        let Some(incidence) = incidence else { return };
+        let light = vertex.weight(incidence.direction) * incidence.illuminance_lx;
+        let sample = LightSample::unless_dark(
+            incidence.direction,
+            incidence.distance_m,
+            light,
+            incidence.illuminance_lx,
+        );
+        let per_lm = engine.sources.of_luminaire_per_lm(number);
+        self.ask(sample.map(|it| asker.beside_landings(it, per_lm, pdf)), asker, work);
+    }
+
+    fn ask_emitter(
+        &mut self,
+        engine: &Engine<'_, '_, S>,
+        asker: &Asker<'_, '_, S>,
+        work: &mut EyePaths<S>,
+    ) {
+        let Some(emitters) = &engine.context.lights.emitters else { return };
+        let u = self.sampler.next_2d();
+        let per_lm = engine.sources.of_emitters_per_lm();
+        let beside_sr = |point: &EmitterPoint| {
+            let to_eye = asker.to_eye(point.direction, engine.emitters_found_by);
+            let landed = product(per_lm * point.lx_sr, to_eye);
+            asker.vertex.survival_pdf_sr(point.direction) + landed
+        };
+        let sample = emitters.light_sample(
+            &engine.context.world,
+            asker.vertex,
+            u,
+            beside_sr,
+            &mut work.choice,
+        );
+        self.ask(sample, asker, work);
+    }
+
+    fn ask_outside(
+        &mut self,
+        engine: &Engine<'_, '_, S>,
+        asker: &Asker<'_, '_, S>,
+        work: &mut EyePaths<S>,
+    ) {
+        let Some(outside) = &engine.context.lights.outside else { return };
+        let vertex = asker.vertex;
+        let sample = |direction: DVec3, pdf_sr: f64, cd_m2: f64, of_sun: bool| {
+            let cos = vertex.cos(direction);
+            if cos <= 0.0 {
+                return None;
+            }
+            let line = engine.sources.pdf_line(vertex.position(), -direction, of_sun);
+            let found_by = if of_sun { FoundBy::Photons } else { engine.sky_found_by };
+            let landed = product(line * cos / pdf_sr, asker.to_eye(direction, found_by));
+            let hit = vertex.survival_pdf_sr(direction) / pdf_sr;
+            let lx = cd_m2 * cos / pdf_sr * of_connection(landed, hit);
+            let light = vertex.weight(direction) * lx;
+            let sample = LightSample::unless_dark(direction, outside.beyond_m(), light, lx)?;
+            Some(LightSample { is_from_outside: true, ..sample })
+        };
+        if outside.is_asked_for() {
+            let u = self.sampler.next_2d();
+            let asked = outside.sample_asked(Asking::at(vertex), u);
+            let found = asked.and_then(|(direction, pdf_sr)| {
+                sample(direction, pdf_sr, outside.luminance_cd_m2(direction), false)
+            });
+            self.ask(found, asker, work);
+        }
+        if outside.has_sun() {
+            let u = self.sampler.next_2d();
+            let [cd_m2, lx] = outside.sun_brightness();
+            let found = outside
+                .sample_sun(u)
+                .and_then(|direction| sample(direction, cd_m2 / lx, cd_m2, true));
+            self.ask(found, asker, work);
+        }
+    }
+
+    fn ask(
+        &self,
+        sample: Option<LightSample<S>>,
+        asker: &Asker<'_, '_, S>,
+        work: &mut EyePaths<S>,
+    ) {
+        if let Some(sample) = sample {
+            work.shadows.ask(self.number, asker.vertex, &sample);
+        }
+    }
+
+    /// Asks for the light of its light subpath by one of the vertices. Of many some are looked at,
+    /// evenly spaced, and one of these is chosen in proportion to what each would give: choices are
+    /// no part of weights.
+    pub(super) fn connect(
+        &mut self,
+        engine: &Engine<'_, '_, S>,
+        asker: &Asker<'_, '_, S>,
+        work: &mut EyePaths<S>,
+    ) {
+        let most = engine.context.max_bounces.unwrap_or(u32::MAX);
+        let bounces = self.bounces_asked;
+        let own = self.light.of(self.subpath).take_while(|it| bounces + it.bounces < most);
+        let count = own.clone().count();
+        if count == 0 {
+            return;
+        }
+        let u = self.sampler.next_1d();
+        let stride = count.div_ceil(CANDIDATES);
+        let first = ((u * stride as f64) as usize).min(stride - 1);
+        let u = u * stride as f64 - first as f64;
+        let candidates = own.skip(first).step_by(stride);
+        let connections = candidates.filter_map(|it| asker.connection(engine, it));
+        let connections: Vec<Connection<'_, S>> = connections.collect();
+        let Some(choice) = choose_weights(u, connections.iter().map(|it| it.light.luminance()))
+        else {
+            return;
+        };
+        let &Connection { vertex, direction, distance_m, light } = &connections[choice.index];
+        let light = light * stride as f64;
+        let from = asker.vertex.ray_origin(direction);
+        let ray = from.shadow_ray(direction, distance_m, vertex.at.facet);
+        let (light, bounces) = (light * choice.pdf.recip(), vertex.bounces + 1);
+        work.shadows.max_bounces = most - self.bounces_asked;
+        work.shadows.push_polyline(self.number, light, bounces, RayQuery::NONE, |rays| {
+            rays.push(ray);
+        });
+    }
+}
+
+/// The light of one light vertex, unless something stands in the way.
+struct Connection<'l, S> {
+    vertex: &'l LightVertex<S>,
+    direction: DVec3,
+    distance_m: f64,
+    light: S,
+}
+
+impl<S: Spectrum> Asker<'_, '_, S> {
+    /// The techniques that leave this vertex and more to light subpaths, over the density with
+    /// which light that comes from `direction` makes it.
+    fn to_eye(&self, direction: DVec3, found: FoundBy) -> f64 {
+        self.weights.of(found).towards(self.vertex.reverse_survival_pdf_sr(direction))
+    }
+
+    /// The part of the light of a lamp that photons leave, where it is asked with this probability.
+    fn beside_landings(&self, sample: LightSample<S>, per_lm: f64, pdf: f64) -> LightSample<S> {
+        let landings = per_lm * sample.illuminance_lx / pdf;
+        let to_eye = self.to_eye(sample.direction, FoundBy::Photons);
+        let share = of_connection(product(landings, to_eye), 0.0);
+        LightSample { light: sample.light * (share / pdf), ..sample }
+    }
+
+    /// `None` where one of the two turns its back on the other.
+    fn connection<'l>(
+        &self,
+        engine: &Engine<'_, '_, S>,
+        light_vertex: &'l LightVertex<S>,
+    ) -> Option<Connection<'l, S>> {
+        let LightVertex { at, frame, wo, flux_lm, weights, found_by, .. } = light_vertex;
+        let way = at.position - self.vertex.position();
+        let square_m2 = way.length_squared();
+        let distance_m = square_m2.sqrt();
+        let direction = way / distance_m;
+        let cos = self.vertex.cos(direction);
+        let wi = frame.to_local(-direction);
+        let bsdf = engine.context.world.bsdf(at);
+        let faces = cos > 0.0 && (wi.z > 0.0 || (wi.z < 0.0 && bsdf.transmits()));
+        if !faces {
+            return None;
+        }
+        let scattered = bsdf.evaluate(*wo, wi, at.front, TransportMode::Importance);
+        let cos_there = wi.z.abs();
+        let to_light = product(
+            self.vertex.survival_pdf_sr(direction) * cos_there / square_m2,
+            weights.towards(bsdf.survival_pdf_sr(wi, *wo)),
+        );
+        let to_eye = product(
+            bsdf.survival_pdf_sr(*wo, wi) * cos / square_m2,
+            self.to_eye(direction, *found_by),
+        );
+        let lx = cos * cos_there / square_m2 * of_connection(to_eye, to_light);
+        let light = self.vertex.weight(direction) * *flux_lm * scattered * lx;
+        let is_something = light.luminance() > 0.0 && light.luminance().is_finite();
+        is_something.then_some(Connection { vertex: light_vertex, direction, distance_m, light })
+    }
+}
