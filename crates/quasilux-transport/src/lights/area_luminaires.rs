@@ -38,6 +38,13 @@ pub(crate) struct AreaLuminaires<'a> {
     choice: LightChoice,
 }
 
+/// A luminaire that was chosen, and a place on it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ChosenPlace {
+    pub(crate) choice: Choice,
+    pub(crate) place: SurfacePoint,
+}
+
 /// What a place on a luminous shape gives.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PlaceIncidence {
@@ -138,14 +145,15 @@ impl<'a> AreaLuminaires<'a> {
         at: Asking,
         u: [f64; 2],
         work: &mut ChoiceWork,
-    ) -> Option<(Choice, SurfacePoint)> {
+    ) -> Option<ChosenPlace> {
         let around = |light: usize, around: &Surroundings| self.lights[light].weight_around(around);
         let weights = self.lights.iter().map(|light| light.importance_lx(at.position, at.side));
         let chosen = self.choice.choose_without_candidates(at, u[0], around, weights, work)?;
         let light = &self.lights[chosen.light];
         let towards = light.centre_direction(at.position);
         let place = light.luminaire.shape.sample_silhouette(towards, [chosen.u_remapped, u[1]]);
-        Some((Choice { number: chosen.light, pdf: chosen.pdf }, place))
+        let choice = Choice { number: chosen.light, pdf: chosen.pdf };
+        Some(ChosenPlace { choice, place })
     }
 
     /// The probability of the choice of [`Self::choose`].

@@ -19,11 +19,11 @@ mod selection;
 mod sun_ways;
 mod suns;
 
-pub(crate) use area_luminaires::AreaLuminaires;
+pub(crate) use area_luminaires::{AreaLuminaires, ChosenPlace};
 pub(crate) use coarse_lights::coarse_tables_bytes;
 pub(crate) use emitting_facets::{EmitterPoint, Emitters};
 pub(crate) use facet_group::EmitterPlace;
-pub(crate) use outside::{Line, OnwardDirection, OutsideLight};
+pub(crate) use outside::{DrawnDirection, Line, OnwardDirection, OutsideLight};
 pub(crate) use pointlike::{Choice, Incidence, LightCentre, PointLikes};
 pub(crate) use selection::{Asking, ChoiceWork, tables_bytes};
 pub(crate) use sun_ways::{SunPlace, SunWays};
@@ -75,6 +75,13 @@ pub(crate) enum LightKind {
     /// All emitting facets.
     Emitters,
     WayIn(usize),
+}
+
+/// What is outside, and how its photons come in.
+#[derive(Clone, Copy)]
+pub(crate) struct WaysIn<'l, 'a> {
+    pub(crate) outside: &'l OutsideLight<'a>,
+    pub(crate) photons: &'l OutsidePhotons,
 }
 
 /// A photon that has just left its light.
@@ -188,8 +195,9 @@ impl<'a> Lights<'a> {
     }
 
     /// How photons from outside come in.
-    pub(crate) fn ways_in(&self) -> Option<(&OutsideLight<'a>, &OutsidePhotons)> {
-        self.outside.as_ref().zip(self.outside_photons.as_ref())
+    pub(crate) fn ways_in(&self) -> Option<WaysIn<'_, 'a>> {
+        let (outside, photons) = self.outside.as_ref().zip(self.outside_photons.as_ref())?;
+        Some(WaysIn { outside, photons })
     }
 
     /// The density in m^-2 with which photons of one lamp, among those of all lamps, land straight

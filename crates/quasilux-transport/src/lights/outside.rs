@@ -18,6 +18,7 @@ mod photons;
 mod tests;
 mod views;
 
+pub(crate) use directions::DrawnDirection;
 pub(crate) use photons::{Beside, Line, OutsidePhoton, OutsidePhotons};
 
 use crate::lights::bright_sky::BrightSky;
@@ -194,12 +195,12 @@ impl<'a> OutsideLight<'a> {
 
     /// A direction to ask along for sky and ground through an opening or in a bright pixel, with its
     /// density in sr^-1.
-    pub(crate) fn sample_asked(&self, place: Asking, u: [f64; 2]) -> Option<(DVec3, f64)> {
+    pub(crate) fn sample_asked(&self, place: Asking, u: [f64; 2]) -> Option<DrawnDirection> {
         let seen = self.seen(place);
         let direction = self.sample_direction(&seen, place, u)?;
         let pdf_sr = self.pdf_of(&seen, place, direction);
         // At the very edge of a pixel rounding may find its neighbour.
-        (pdf_sr > 0.0).then_some((direction, pdf_sr))
+        (pdf_sr > 0.0).then_some(DrawnDirection { direction, pdf_sr })
     }
 
     /// A direction to the disk of the sun, evenly over it.

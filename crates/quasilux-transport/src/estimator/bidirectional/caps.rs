@@ -177,27 +177,7 @@ impl<S: Spectrum> Class<'_, '_, '_, S> {
 fn kinds<S: Spectrum>(engine: &Engine<'_, '_, S>, surfaces: &Surfaces<'_, S>) -> Vec<Kind> {
     let context = engine.context;
     let lights = &context.lights;
-    let mut fluxes_lm = [0.0_f64; 5];
-    for number in 0..lights.len() {
-        let share = engine.sources.share(number);
-        let (kind, flux_lm) = match lights.kind(number) {
-            LightKind::Pointlike(_) => (0, lights.flux_of_lm(number)),
-            LightKind::Luminaire(_) => (1, lights.flux_of_lm(number)),
-            LightKind::Emitters => (2, lights.flux_of_lm(number)),
-            LightKind::WayIn(way) => {
-                let most =
-                    lights.ways_in().map_or(0.0, |(outside, ways)| ways.most_lm(outside, way));
-                match lights.ways_in() {
-                    Some((_, ways)) if ways.is_sun(way) => (4, most),
-                    _ => (3, SKY_MARGIN * most),
-                }
-            }
-        };
-        if flux_lm > 0.0 {
-            fluxes_lm[kind] = fluxes_lm[kind].max(flux_lm / share);
-        }
-    }
-    let [of_points, of_luminaires, of_emitters, of_sky, of_sun] = fluxes_lm;
+    let [of_points, of_luminaires, of_emitters, of_sky, of_sun] = fluxes_lm(engine);
     let largest_lx = lights.emitters.as_ref().map_or(0.0, |emitters| emitters.largest_lx());
     let outside = lights.outside.as_ref();
     let sky_lx = outside.map_or(0.0, |outside| PI * SKY_MARGIN * outside.brightest_cd_m2());
@@ -247,6 +227,32 @@ fn kinds<S: Spectrum>(engine: &Engine<'_, '_, S>, surfaces: &Surfaces<'_, S>) ->
         },
     ];
     all.into_iter().filter(|kind| kind.flux_lm > 0.0).collect()
+}
+
+/// The most that a photon of each kind stands for, in lm, in the order of [`kinds`].
+fn fluxes_lm<S: Spectrum>(engine: &Engine<'_, '_, S>) -> [f64; 5] {
+    let lights = &engine.context.lights;
+    let mut fluxes_lm = [0.0_f64; 5];
+    for number in 0..lights.len() {
+        let share = engine.sources.share(number);
+        let (kind, flux_lm) = match lights.kind(number) {
+            LightKind::Pointlike(_) => (0, lights.flux_of_lm(number)),
+            LightKind::Luminaire(_) => (1, lights.flux_of_lm(number)),
+            LightKind::Emitters => (2, lights.flux_of_lm(number)),
+            LightKind::WayIn(way) => {
+                let most =
+                    lights.ways_in().map_or(0.0, |ways| ways.photons.most_lm(ways.outside, way));
+                match lights.ways_in() {
+                    Some(ways) if ways.photons.is_sun(way) => (4, most),
+                    _ => (3, SKY_MARGIN * most),
+                }
+            }
+        };
+        if flux_lm > 0.0 {
+            fluxes_lm[kind] = fluxes_lm[kind].max(flux_lm / share);
+        }
+    }
+    fluxes_lm
 }
 
 /// Of each material.

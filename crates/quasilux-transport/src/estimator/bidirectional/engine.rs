@@ -58,6 +58,6 @@ impl<S> Engine<'_, '_, S> {
     pub(super) fn is_of_sun(&self, photon: &Photon) -> bool {
         let ways = self.context.lights.ways_in();
         let LightKind::WayIn(way) = photon.kind else { return false };
-        ways.is_some_and(|(_, ways)| ways.is_sun(way))
+        ways.is_some_and(|ways| ways.photons.is_sun(way))
     }
 }

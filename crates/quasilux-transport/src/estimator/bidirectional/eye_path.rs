@@ -237,27 +237,11 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
         if context.max_bounces.is_some_and(|most| self.bounces >= most) {
             return false;
         }
-        let next =
-            |sampler: &mut Sampler<'_>| bsdf.sample(wo, at.front, TransportMode::Radiance, sampler);
         if bsdf.is_specular() {
-            let Some(next) = next(&mut self.sampler) else { return false };
-            let goes_straight = next.wi.z < 0.0 && bsdf.straight_transmittance(1.0).is_some();
-            if goes_straight {
-                self.distance_m = distance_m;
-            } else {
-                let here = self.first_surface(engine, arrived, bsdf, 0.0);
-                self.weights = here.map(|it| it.mirrored(next.wi.z.abs()));
-                self.distance_m = 0.0;
-                self.vertices += 1;
-                self.asked_from = None;
-            }
-            return self.go_on(engine, at, &frame, next.wi, next.weight);
+            return self.pass(engine, at, surface, arrived);
         }
-        let geometry_m2 = || {
-            let cos = self.receiver.n.dot(self.direction_from_start());
-            cos * wo.z / (distance_m * distance_m)
-        };
-        let geometry_m2 = if self.vertices == 0 { geometry_m2() } else { 0.0 };
+        // Panes bend nothing: at the first surface this is the direction in which it left.
+        let geometry_m2 = self.receiver.n.dot(self.direction) * wo.z / (distance_m * distance_m);
         let here = self.first_surface(engine, arrived, bsdf, geometry_m2);
         self.vertices += 1;
         let vertex = &Vertex::on(&context.world, at, surface, self.beta);
@@ -268,7 +252,8 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
         self.ask_pointlike(engine, asker, work);
         self.ask_areas(engine, asker, work);
         self.connect(engine, asker, work);
-        let Some(next) = next(&mut self.sampler) else { return false };
+        let next = bsdf.sample(wo, at.front, TransportMode::Radiance, &mut self.sampler);
+        let Some(next) = next else { return false };
         let pdfs_sr = [bsdf.survival_pdf_sr(wo, next.wi), bsdf.survival_pdf_sr(next.wi, wo)];
         let cos = next.wi.z.abs();
         self.weights = here.map(|it| it.scattered(cos, pdfs_sr[0], pdfs_sr[1]));
@@ -277,9 +262,28 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
         self.go_on(engine, at, &frame, next.wi, next.weight)
     }
 
-    /// Of a path that has met no vertex yet: panes bend nothing.
-    fn direction_from_start(&self) -> DVec3 {
-        self.direction
+    /// Goes on from a mirror, from glass, or through a pane.
+    fn pass(
+        &mut self,
+        engine: &Engine<'_, '_, S>,
+        at: &Interaction,
+        surface: &Surface<'_, S>,
+        arrived: EyeWeights,
+    ) -> bool {
+        let &Surface { bsdf, frame, wo, .. } = surface;
+        let next = bsdf.sample(wo, at.front, TransportMode::Radiance, &mut self.sampler);
+        let Some(next) = next else { return false };
+        let goes_straight = next.wi.z < 0.0 && bsdf.straight_transmittance(1.0).is_some();
+        if goes_straight {
+            self.distance_m += at.distance_m;
+        } else {
+            let here = self.first_surface(engine, arrived, bsdf, 0.0);
+            self.weights = here.map(|it| it.mirrored(next.wi.z.abs()));
+            self.distance_m = 0.0;
+            self.vertices += 1;
+            self.asked_from = None;
+        }
+        self.go_on(engine, at, &frame, next.wi, next.weight)
     }
 
     /// What it weighs at its first surface, where joins and photons take part; elsewhere as it is.

@@ -35,6 +35,12 @@ pub(super) struct LightVertex<S> {
     pub(super) found_by: FoundBy,
 }
 
+/// A vertex with the number of its subpath.
+struct FoundVertex<S> {
+    subpath: usize,
+    vertex: LightVertex<S>,
+}
+
 /// A light subpath on its way.
 struct LightSubpath<'p, S> {
     /// Its number among those that travel together.
@@ -113,7 +119,7 @@ impl<S: Spectrum> LightSubpaths<S> {
             count = number + 1;
             travelling.extend(LightSubpath::new(engine, number, sampler));
         }
-        let mut found: Vec<(usize, LightVertex<S>)> = Vec::new();
+        let mut found: Vec<FoundVertex<S>> = Vec::new();
         let (mut queries, mut hits, mut arrivals) =
             (Vec::new(), Vec::<Option<Hit>>::new(), Vec::new());
         let mut rays = 0;
@@ -133,8 +139,8 @@ impl<S: Spectrum> LightSubpaths<S> {
                 at.is_some_and(|at| subpath.arrive(engine, at, &mut found))
             });
         }
-        let numbers: Vec<usize> = found.iter().map(|(number, _)| *number).collect();
-        let vertices = found.into_iter().map(|(_, vertex)| vertex).collect();
+        let numbers: Vec<usize> = found.iter().map(|it| it.subpath).collect();
+        let vertices = found.into_iter().map(|it| it.vertex).collect();
         let mut own = vec![0..0; count];
         numbers.iter().for_each(|number| own[*number].end += 1);
         let mut first = 0;
@@ -182,7 +188,7 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
         &mut self,
         engine: &Engine<'_, '_, S>,
         at: &Interaction,
-        found: &mut Vec<(usize, LightVertex<S>)>,
+        found: &mut Vec<FoundVertex<S>>,
     ) -> bool {
         let context = engine.context;
         if context.max_bounces.is_some_and(|most| self.bounces >= most) {
@@ -216,7 +222,7 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
         let (flux_lm, bounces) = (self.flux_lm, self.bounces);
         let found_by = engine.found_by(&self.photon);
         let vertex = LightVertex { at: *at, frame, wo, flux_lm, bounces, weights, found_by };
-        found.push((self.number, vertex));
+        found.push(FoundVertex { subpath: self.number, vertex });
         let Some(next) = next(&mut self.sampler) else { return false };
         let cos = next.wi.z.abs();
         let pdfs_sr = [bsdf.survival_pdf_sr(wo, next.wi), bsdf.survival_pdf_sr(next.wi, wo)];

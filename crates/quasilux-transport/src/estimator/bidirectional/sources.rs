@@ -63,10 +63,12 @@ impl<'l, 'a> Sources<'l, 'a> {
     /// Density in m^-2 sr^-1, across the line and over directions, of photons from outside along a
     /// line, of the sun or of all else.
     pub(super) fn pdf_line(&self, point: DVec3, direction: DVec3, of_sun: bool) -> f64 {
-        let Some((outside, ways)) = self.lights.ways_in() else { return 0.0 };
+        let Some(ways) = self.lights.ways_in() else { return 0.0 };
         let line = Line { point, direction, of_sun };
         let of = |number: usize| match self.lights.kind(number) {
-            LightKind::WayIn(way) => self.share(number) * ways.pdf_line(outside, way, &line),
+            LightKind::WayIn(way) => {
+                self.share(number) * ways.photons.pdf_line(ways.outside, way, &line)
+            }
             _ => 0.0,
         };
         (0..self.lights.len()).map(of).sum()

@@ -29,13 +29,21 @@ pub(super) struct DirectionTable {
     integral: f64,
 }
 
+/// A row or column, and how far in it.
+#[derive(Clone, Copy, Debug)]
+struct PlaceInCells {
+    cell: usize,
+    #[cfg_attr(not(test), expect(dead_code, reason = "what inverts a sample needs it"))]
+    within: f64,
+}
+
 /// A direction with its density.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct DrawnDirection {
+pub(crate) struct DrawnDirection {
     /// Unit vector.
-    pub(super) direction: DVec3,
+    pub(crate) direction: DVec3,
     /// In sr^-1.
-    pub(super) pdf_sr: f64,
+    pub(crate) pdf_sr: f64,
 }
 
 impl DirectionTable {
@@ -78,7 +86,7 @@ impl DirectionTable {
 
     /// Density in sr^-1 of [`Self::sample_direction`].
     pub(super) fn pdf_direction_sr(&self, direction: DVec3) -> f64 {
-        let [(row, _), (column, _)] = place_of(direction);
+        let [row, column] = place_of(direction).map(|place| place.cell);
         self.rows.pdf(row) * self.columns[row].pdf(column) / CELL_SR
     }
 
@@ -89,14 +97,14 @@ impl DirectionTable {
     }
 }
 
-/// Row and column of a direction, and where in them it is.
-fn place_of(direction: DVec3) -> [(usize, f64); 2] {
+/// Where in the grid of cells a direction is.
+fn place_of(direction: DVec3) -> [PlaceInCells; 2] {
     let row = (direction.z + 1.0) / 2.0 * ROWS as f64;
     let turn = libm::atan2(direction.y, direction.x) / TAU;
     let column = (turn - turn.floor()) * COLUMNS as f64;
     [(row, ROWS), (column, COLUMNS)].map(|(place, count)| {
         let cell = (place as usize).min(count - 1);
-        (cell, place - cell as f64)
+        PlaceInCells { cell, within: place - cell as f64 }
     })
 }
 
@@ -117,8 +125,11 @@ mod tests {
     impl DirectionTable {
         /// The coordinates that a direction is drawn with.
         fn invert_direction(&self, direction: DVec3) -> [f64; 2] {
-            let [(row, down), (column, along)] = place_of(direction);
-            [self.rows.invert(row, down), self.columns[row].invert(column, along)]
+            let [row, column] = place_of(direction);
+            [
+                self.rows.invert(row.cell, row.within),
+                self.columns[row.cell].invert(column.cell, column.within),
+            ]
         }
     }
 
@@ -149,7 +160,7 @@ mod tests {
             let step = 1e-7;
             let sample = |u| table.sample_direction(u).direction.to_array();
             let one_cell =
-                |u: [f64; 2]| place_of(table.sample_direction(u).direction).map(|at| at.0);
+                |u: [f64; 2]| place_of(table.sample_direction(u).direction).map(|at| at.cell);
             let corners = [[step, step], [-step, -step], [step, -step], [-step, step]];
             let moved = corners.map(|by| [u[0] + by[0], u[1] + by[1]]);
             if moved.iter().all(|other| one_cell(*other) == one_cell(u)) {
@@ -174,7 +185,7 @@ mod tests {
         let mut observed = vec![0_u64; BOXES * BOXES];
         for _ in 0..SAMPLES {
             let u = [number(), number()];
-            let [(row, _), (column, _)] = place_of(table.sample_direction(u).direction);
+            let [row, column] = place_of(table.sample_direction(u).direction).map(|at| at.cell);
             observed[row * BOXES / ROWS * BOXES + column * BOXES / COLUMNS] += 1;
         }
         let mut expected = vec![0.0; BOXES * BOXES];

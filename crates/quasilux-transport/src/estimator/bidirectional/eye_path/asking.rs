@@ -6,7 +6,7 @@ use crate::bsdf::TransportMode;
 use crate::estimator::bidirectional::engine::Engine;
 use crate::estimator::bidirectional::light_subpath::LightVertex;
 use crate::estimator::bidirectional::plan::FoundBy;
-use crate::lights::{Asking, Choice, EmitterPoint};
+use crate::lights::{Asking, Choice, ChosenPlace, DrawnDirection, EmitterPoint};
 use crate::path::subpath_weights::{of_connection, product};
 use crate::spectrum::Spectrum;
 use crate::world::vertex::Vertex;
@@ -88,7 +88,7 @@ impl<S: Spectrum> EyePath<'_, S> {
         let u = self.sampler.next_2d();
         let vertex = asker.vertex;
         let chosen = luminaires.choose(Asking::at(vertex), u, &mut work.choice);
-        let Some((Choice { number, pdf }, place)) = chosen else { return };
+        let Some(ChosenPlace { choice: Choice { number, pdf }, place }) = chosen else { return };
         let cos = |direction| vertex.cos(direction);
         let incidence = luminaires.incidence(number, &place, vertex.position(), cos);
         let Some(incidence) = incidence else { return };
@@ -152,7 +152,7 @@ impl<S: Spectrum> EyePath<'_, S> {
         if outside.is_asked_for() {
             let u = self.sampler.next_2d();
             let asked = outside.sample_asked(Asking::at(vertex), u);
-            let found = asked.and_then(|(direction, pdf_sr)| {
+            let found = asked.and_then(|DrawnDirection { direction, pdf_sr }| {
                 sample(direction, pdf_sr, outside.luminance_cd_m2(direction), false)
             });
             self.ask(found, asker, work);
