@@ -3,7 +3,8 @@
 //! [`steps`] is the test command, [`python`], [`examples`], [`cluster`] and [`documents`] its last
 //! steps, [`office`] and [`weather`] the generators behind `examples/office/` and
 //! `examples/daylight-office/`, [`cie171`] and [`octant`] those of cases in `validation/`,
-//! [`experiments`] that of `docs/experiments.md`, [`gauntlet`] builds and runs `quasilux-gauntlet`. The rules that no compiler checks are in
+//! [`experiments`] that of `docs/experiments.md`, [`gauntlet`] builds and runs `quasilux-gauntlet`.
+//! The rules that no compiler checks are in
 //! `tests/architecture/`.
 
 mod arrows;

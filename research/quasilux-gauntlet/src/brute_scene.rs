@@ -1,6 +1,6 @@
 //! A room as a scene of the brute-force program, and which part of its light is found how.
 
-use crate::room::{Face, Found, Lamp, Lookout, Parallelogram, Room, SensorPlace, Shine};
+use crate::room::{Face, FoundBy, Lamp, Lookout, Parallelogram, Room, SensorPlace, Shine};
 use crate::room::{SkyKind, SunPlace, Surface};
 use glam::DVec3;
 use quasilux_brute::{self as brute, Mode, Part, Source};
@@ -45,19 +45,19 @@ pub fn brute_parts(room: &Room, scene: &brute::Scene) -> Vec<Part> {
         Source::Sky => room.sky_found,
         Source::Sun => room.sun_found,
     };
-    let mode = |found: Found| match found {
-        Found::Paths => Mode::Paths,
-        Found::Joins => Mode::Joins,
-        Found::BeamsAndJoins => Mode::BeamsAndJoins,
-        Found::KeyholesAndJoins => Mode::KeyholesAndJoins,
-        Found::Photons => Mode::Photons,
+    let mode = |found: FoundBy| match found {
+        FoundBy::Paths => Mode::Paths,
+        FoundBy::Joins => Mode::Joins,
+        FoundBy::BeamsAndJoins => Mode::BeamsAndJoins,
+        FoundBy::KeyholesAndJoins => Mode::KeyholesAndJoins,
+        FoundBy::Photons => Mode::Photons,
     };
     let sources = scene.sources();
-    let of = |way: Found| {
+    let of = |way: FoundBy| {
         let own: Vec<Source> = sources.iter().copied().filter(|it| found(it) == way).collect();
         (!own.is_empty()).then(|| Part { sources: own, mode: mode(way) })
     };
-    Found::ALL.into_iter().filter_map(of).collect()
+    FoundBy::ALL.into_iter().filter_map(of).collect()
 }
 
 fn lookout(it: &Lookout) -> brute::Lookout {

@@ -8,7 +8,7 @@ use crate::record::{self, RunKey, RunRecord};
 use crate::references::{ReferenceStore, RoomReferences};
 use crate::report::{Report, Subject};
 use crate::room::Room;
-use crate::trial::Stage;
+use crate::trial::RunSettings;
 use crate::truth::{self, DiscReferences, Truth};
 use quasilux_transport::Settings;
 use std::fs;
@@ -16,7 +16,7 @@ use std::io;
 use std::path::Path;
 
 /// Fewer references than this judge nothing, where they are the only ones: a share of the rooms.
-const LEAST_KNOWN: f64 = 0.5;
+const MIN_KNOWN: f64 = 0.5;
 
 /// Does what the options ask for; whether all claims hold.
 ///
@@ -77,7 +77,7 @@ fn measured(effort: &Effort) -> Result<bool, String> {
         seconds: effort.reference_seconds,
     };
     for room in &rooms {
-        let known = store.of(room).map_err(failed)?;
+        let known = store.for_room(room).map_err(failed)?;
         let usable = |it: &RoomReferences| {
             it.points.iter().filter(|point| point.can_judge(effort.rel_tol)).count()
         };
@@ -104,7 +104,7 @@ fn measured(effort: &Effort) -> Result<bool, String> {
     });
     println!("\n{}", report.markdown);
     fs::write(effort.out.join("report.md"), &report.markdown).map_err(failed)?;
-    let are_enough = known.len() as f64 >= LEAST_KNOWN * rooms.len() as f64;
+    let are_enough = known.len() as f64 >= MIN_KNOWN * rooms.len() as f64;
     if !are_enough {
         println!("only {} of {} rooms have references", known.len(), rooms.len());
     }
@@ -125,7 +125,7 @@ fn truths(
         let Some(room) = room.filter(|_| is_blurred) else {
             return Ok(Truth { points, discs: None });
         };
-        let references = store.of(&room.with_discs(&radii_m))?;
+        let references = store.for_room(&room.with_discs(&radii_m))?;
         let discs = references.map(|references| DiscReferences { radii_m, references });
         Ok(Truth { points, discs })
     };
@@ -140,7 +140,7 @@ fn all_runs(effort: &Effort, rooms: &[&Room]) -> Result<Vec<RunRecord>, String> 
     let program = program_digest()?;
     let mut runs = Vec::new();
     for room in rooms {
-        let stage = Stage::new(room);
+        let run_settings = RunSettings::new(room);
         for &estimator in &effort.estimators {
             for seed in effort.first_seed..effort.first_seed + effort.seeds {
                 let key = RunKey {
@@ -157,7 +157,7 @@ fn all_runs(effort: &Effort, rooms: &[&Room]) -> Result<Vec<RunRecord>, String> 
                     runs.push(done.clone());
                     continue;
                 }
-                let run = new_run(&stage, key);
+                let run = new_run(&run_settings, key);
                 record::append(&path, &run).map_err(failed)?;
                 runs.push(run);
             }
@@ -167,11 +167,11 @@ fn all_runs(effort: &Effort, rooms: &[&Room]) -> Result<Vec<RunRecord>, String> 
     Ok(runs)
 }
 
-fn new_run(stage: &Result<Stage, String>, key: RunKey) -> RunRecord {
+fn new_run(run_settings: &Result<RunSettings, String>, key: RunKey) -> RunRecord {
     let RunKey { estimator, rel_tol, seed, .. } = key;
     let settings = Settings { estimator, seed, rel_tol, ..Settings::default() };
-    let outcome = match stage {
-        Ok(stage) => stage.run(&settings, &key.limits_s),
+    let outcome = match run_settings {
+        Ok(run_settings) => run_settings.run(&settings, &key.limits_s),
         Err(error) => record::RunOutcome::Refused(error.clone()),
     };
     RunRecord { key, outcome }

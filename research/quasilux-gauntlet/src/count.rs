@@ -4,8 +4,8 @@
 //! has weight one, its points evenly. False intervals are counted one by one, and the runs that
 //! have any: how rare that is by chance is asked of runs.
 
-use crate::chance;
 use crate::judgement::Judgement;
+use crate::likelihood;
 use crate::record::{LookRecord, RunOutcome, RunRecord};
 use crate::truth::Truth;
 use quasilux_transport::EstimatorKind;
@@ -55,10 +55,10 @@ pub(crate) struct Count {
 }
 
 /// What values are held against, by the digest of their room.
-pub(crate) type Known<'a> = BTreeMap<&'a str, &'a Truth>;
+pub(crate) type Truths<'a> = BTreeMap<&'a str, &'a Truth>;
 
 impl Count {
-    pub(crate) fn new(runs: &[RunRecord], known: &Known<'_>, filter: Filter<'_>) -> Self {
+    pub(crate) fn new(runs: &[RunRecord], known: &Truths<'_>, filter: Filter<'_>) -> Self {
         let mut count = Self::default();
         let is_own = |run: &&RunRecord| {
             run.key.estimator == filter.estimator
@@ -92,7 +92,7 @@ impl Count {
         let mut judged = Vec::new();
         for (place, point) in look.points.iter().enumerate() {
             self.points += 1;
-            let reference = truth.of(place, point, rel_tol);
+            let reference = truth.at_place(place, point, rel_tol);
             let Some(reference) = reference.filter(|it| it.can_judge(rel_tol)) else {
                 self.left_out += 1;
                 continue;
@@ -116,7 +116,7 @@ impl Count {
 
     /// How many intervals chance makes false.
     pub(crate) fn allowed(&self) -> f64 {
-        f64::from(self.intervals) * chance::false_with_bound()
+        f64::from(self.intervals) * likelihood::false_with_bound()
     }
 
     /// The probability that chance gives so many runs with false intervals, or more.
@@ -125,8 +125,8 @@ impl Count {
             return 1.0;
         }
         let intervals = f64::from(self.intervals) / f64::from(self.runs);
-        let p = -libm::expm1(intervals * libm::log1p(-chance::false_with_bound()));
-        chance::at_least(self.false_runs, self.runs, p)
+        let p = -libm::expm1(intervals * libm::log1p(-likelihood::false_with_bound()));
+        likelihood::at_least(self.false_runs, self.runs, p)
     }
 }
 
@@ -197,17 +197,17 @@ mod tests {
         ];
         let filter = Filter { estimator: EstimatorKind::Path, family: None, limit_s: None };
         let references = of(vec![point, point]);
-        let known = Known::from([("d", &references)]);
+        let known = Truths::from([("d", &references)]);
         let count = Count::new(&runs, &known, filter);
         assert_eq!((count.runs, count.looks, count.intervals), (2, 3, 6));
         assert_eq!((count.is_false_with_bound, count.false_runs), (2, 1));
         assert!((count.covered.value() - 0.5).abs() < 1e-12, "a half, none and all");
         // One false run of two, of three intervals each.
-        assert!((count.probability() / (6.0 * chance::false_with_bound()) - 1.0).abs() < 0.01);
+        assert!((count.probability() / (6.0 * likelihood::false_with_bound()) - 1.0).abs() < 0.01);
         let last = Count::new(&runs, &known, Filter { limit_s: Some(3.0), ..filter });
         assert_eq!((last.looks, last.intervals, last.is_false), (2, 4, 0));
         let references = of(vec![point, weak]);
-        let known = Known::from([("d", &references)]);
+        let known = Truths::from([("d", &references)]);
         let count = Count::new(&runs, &known, filter);
         assert_eq!((count.points, count.left_out, count.intervals), (6, 3, 3));
         let other = Filter { estimator: EstimatorKind::Photon, ..filter };

@@ -1,6 +1,6 @@
 //! A value held against its reference.
 
-use crate::chance::{FALSE_FROM, HALF_WIDTH_PER_ERROR, UNSEEN_FROM};
+use crate::likelihood::{FALSE_FROM, HALF_WIDTH_PER_ERROR, UNSEEN_FROM};
 use crate::record::PointRecord;
 use crate::references::Reference;
 
@@ -8,8 +8,8 @@ use crate::references::Reference;
 const UNSEEN_TOL: f64 = 0.05;
 /// Where less of the half-width is unseen, the half-width alone has to hold.
 const LITTLE_UNSEEN: f64 = 0.1;
-/// Where nothing is drawn, all the error of a value is that a sensor stands a hair before its place:
-/// 2^-30 of the room's size, which counts a millimetre from a lamp.
+/// Where nothing is drawn, all the error of a value is that a sensor stands a hair before its
+/// place: 2^-30 of the room's size, which counts a millimetre from a lamp.
 const ROUNDING: f64 = 1e-5;
 
 /// What is said of a value that has an interval.

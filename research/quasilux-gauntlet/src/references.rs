@@ -14,9 +14,9 @@ const SHIPPED: &str = include_str!("../references.jsonl");
 /// Seeds of the two halves that have to agree.
 const SEEDS: [u64; 2] = [1, 2];
 /// Halves that are farther apart, in standard errors of their difference, know less than they say.
-const MOST_APART: f64 = 4.5;
+const MAX_APART: f64 = 4.5;
 /// A single path that makes a larger share of a value leaves too much to chance.
-const MOST_OF_ONE_PATH: f64 = 0.02;
+const MAX_OF_ONE_PATH: f64 = 0.02;
 
 /// What a place gets.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -82,7 +82,7 @@ impl ReferenceStore {
     ///
     /// # Errors
     /// When the folder cannot be written.
-    pub fn of(&self, room: &Room) -> io::Result<Option<RoomReferences>> {
+    pub fn for_room(&self, room: &Room) -> io::Result<Option<RoomReferences>> {
         let path = self.folder.join(format!("{}.json", room.digest()));
         let kept = kept(&path).into_iter().chain(shipped_references()).filter(|it| it.fits(room));
         let mut kept: Vec<RoomReferences> = kept.collect();
@@ -135,8 +135,8 @@ fn joined(halves: [Estimate; 2]) -> Reference {
     let lx = share * halves[0].lx + (1.0 - share) * halves[1].lx;
     let standard_error_lx = libm::hypot(share * errors[0], (1.0 - share) * errors[1]);
     let apart = (halves[0].lx - halves[1].lx).abs();
-    let agree = apart <= MOST_APART * libm::hypot(errors[0], errors[1]) + 1e-9 * lx;
-    let is_sound = agree && halves.iter().all(|half| half.largest_share <= MOST_OF_ONE_PATH);
+    let agree = apart <= MAX_APART * libm::hypot(errors[0], errors[1]) + 1e-9 * lx;
+    let is_sound = agree && halves.iter().all(|half| half.largest_share <= MAX_OF_ONE_PATH);
     Reference { lx, standard_error_lx, is_sound }
 }
 

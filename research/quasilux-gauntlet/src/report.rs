@@ -1,8 +1,8 @@
 //! The counts as tables, and what is claimed.
 
-use crate::chance;
-use crate::count::{Count, Filter, Known};
+use crate::count::{Count, Filter, Truths};
 use crate::families;
+use crate::likelihood;
 use crate::record::{RunOutcome, RunRecord};
 use crate::truth::Truth;
 use quasilux_transport::EstimatorKind;
@@ -47,7 +47,7 @@ impl Report {
     /// The report of the runs.
     #[must_use]
     pub fn new(subject: &Subject<'_>) -> Self {
-        let known: Known<'_> =
+        let known: Truths<'_> =
             subject.truths.iter().map(|it| (it.points.digest.as_str(), it)).collect();
         let mut markdown = "# The gauntlet\n\n".to_owned();
         let mut holds = true;
@@ -75,9 +75,9 @@ impl Report {
 }
 
 /// What counts: the runs of a family at a limit, of all where they are `None`.
-type Counting<'a> = dyn Fn(Option<&str>, Option<f64>) -> Count + 'a;
+type Columns<'a> = dyn Fn(Option<&str>, Option<f64>) -> Count + 'a;
 
-fn by_family(text: &mut String, count: &Counting<'_>) {
+fn by_family(text: &mut String, count: &Columns<'_>) {
     text.push_str(
         "| family | witness | rooms | runs | intervals | false | with bound | by chance | \
          worst s.e. | half-width covers | both cover | much unseen | withdrawn | left out |\n\
@@ -115,7 +115,7 @@ fn by_family(text: &mut String, count: &Counting<'_>) {
     text.push('\n');
 }
 
-fn by_limit(text: &mut String, limits_s: &[f64], count: &Counting<'_>) {
+fn by_limit(text: &mut String, limits_s: &[f64], count: &Columns<'_>) {
     text.push_str(
         "| limit in s | runs | done | intervals | with bound | half-width covers | both cover | \
          much unseen | withdrawn |\n|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n",
@@ -140,7 +140,7 @@ fn by_limit(text: &mut String, limits_s: &[f64], count: &Counting<'_>) {
     text.push('\n');
 }
 
-fn claims(subject: &Subject<'_>, count: &Counting<'_>) -> Vec<Claim> {
+fn claims(subject: &Subject<'_>, count: &Columns<'_>) -> Vec<Claim> {
     let mut claims = claims_of_falsehood(count);
     claims.extend(subject.limits_s.iter().flat_map(|&limit_s| claims_of_coverage(limit_s, count)));
     let crashed = count(None, None).crashed;
@@ -151,7 +151,7 @@ fn claims(subject: &Subject<'_>, count: &Counting<'_>) -> Vec<Claim> {
 }
 
 /// False intervals are as rare as by chance, in all families together and in each.
-fn claims_of_falsehood(count: &Counting<'_>) -> Vec<Claim> {
+fn claims_of_falsehood(count: &Columns<'_>) -> Vec<Claim> {
     let all = count(None, None);
     let probability = all.probability();
     let mut claims = vec![Claim {
@@ -164,12 +164,12 @@ fn claims_of_falsehood(count: &Counting<'_>) -> Vec<Claim> {
             all.runs,
             all.allowed(),
         ),
-        holds: probability >= chance::RARE,
+        holds: probability >= likelihood::RARE,
     }];
     for family in &families::ALL {
         let own = count(Some(family.name), None);
         let probability = own.probability();
-        if probability < chance::RARE {
+        if probability < likelihood::RARE {
             let (name, bad, runs) = (family.name, own.false_runs, own.runs);
             let text = format!(
                 "{name}: {bad} of {runs} runs have false intervals, of probability \
@@ -182,12 +182,12 @@ fn claims_of_falsehood(count: &Counting<'_>) -> Vec<Claim> {
 }
 
 /// What both numbers and the half-width alone cover at a limit, two binomial deviations allowed.
-fn claims_of_coverage(limit_s: f64, count: &Counting<'_>) -> Vec<Claim> {
+fn claims_of_coverage(limit_s: f64, count: &Columns<'_>) -> Vec<Claim> {
     let own = count(None, Some(limit_s));
     let mut claims = Vec::new();
     let both = own.covered_with_bound;
     if both.runs >= FEW_RUNS {
-        let least = COVERED_WITH_BOUND - 2.0 * chance::deviation(COVERED_WITH_BOUND, both.runs);
+        let least = COVERED_WITH_BOUND - 2.0 * likelihood::deviation(COVERED_WITH_BOUND, both.runs);
         let text = format!(
             "at {limit_s} s both numbers cover {} in {} runs, at least {} is wanted",
             per_cent(both.value()),
@@ -199,8 +199,8 @@ fn claims_of_coverage(limit_s: f64, count: &Counting<'_>) -> Vec<Claim> {
     let alone = own.covered;
     if alone.runs >= FEW_RUNS {
         let [least, most] = COVERED;
-        let least = least - 2.0 * chance::deviation(least, alone.runs);
-        let most = most + 2.0 * chance::deviation(most, alone.runs);
+        let least = least - 2.0 * likelihood::deviation(least, alone.runs);
+        let most = most + 2.0 * likelihood::deviation(most, alone.runs);
         let text = format!(
             "at {limit_s} s the half-width alone covers {} in {} runs where little is unseen, {} \
              to {} is wanted",

@@ -33,11 +33,11 @@ pub struct Room {
     /// All ways in for walks from sky and sun, `u x v` outward; none where they come from around.
     pub ways_in: Vec<Parallelogram>,
     /// How the reference finds the light of faces that shine.
-    pub emitters_found: Found,
+    pub emitters_found: FoundBy,
     /// The same of the sky and the ground.
-    pub sky_found: Found,
+    pub sky_found: FoundBy,
     /// The same of the sun.
-    pub sun_found: Found,
+    pub sun_found: FoundBy,
 }
 
 /// A flat polygon, its front where its corners run counter-clockwise.
@@ -86,7 +86,7 @@ pub struct Lamp {
     /// How it shines.
     pub shine: Shine,
     /// How the reference finds its light.
-    pub found: Found,
+    pub found: FoundBy,
 }
 
 /// How a point light shines.
@@ -174,7 +174,7 @@ pub struct Lookout {
 
 /// How the reference finds the light of a source: a closed set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Found {
+pub enum FoundBy {
     /// By paths from the sensors, which miss light of point lights over mirrors and through glass.
     Paths,
     /// By walks from the lights that are joined to the sensors; what comes over mirrors or through
@@ -188,7 +188,7 @@ pub enum Found {
     Photons,
 }
 
-impl Found {
+impl FoundBy {
     /// All ways.
     pub const ALL: [Self; 5] =
         [Self::Paths, Self::Joins, Self::BeamsAndJoins, Self::KeyholesAndJoins, Self::Photons];
@@ -223,9 +223,9 @@ impl Room {
             aims: Vec::new(),
             aim_share: 0.0,
             ways_in: Vec::new(),
-            emitters_found: Found::Paths,
-            sky_found: Found::Paths,
-            sun_found: Found::Paths,
+            emitters_found: FoundBy::Paths,
+            sky_found: FoundBy::Paths,
+            sun_found: FoundBy::Paths,
         }
     }
 
@@ -255,7 +255,7 @@ impl Room {
 
     pub(super) fn add_lamp(&mut self, position: DVec3, intensity_cd: f64) {
         let shine = Shine::Everywhere(intensity_cd);
-        self.lamps.push(Lamp { position, shine, found: Found::Paths });
+        self.lamps.push(Lamp { position, shine, found: FoundBy::Paths });
     }
 
     /// A lamp with the intensity of a flat panel, in steps of 10 degrees.
@@ -267,7 +267,7 @@ impl Room {
         };
         let rows = (0..10).map(row).collect();
         let shine = Shine::Table { aim: DVec3::NEG_Z, rows };
-        self.lamps.push(Lamp { position, shine, found: Found::Paths });
+        self.lamps.push(Lamp { position, shine, found: FoundBy::Paths });
     }
 
     /// A beam of a flux within a half angle, from which it falls to nothing within a tenth of it;
@@ -279,11 +279,11 @@ impl Room {
             vec![[0.0, intensity_cd], [half_deg, intensity_cd], [1.1 * half_deg, 0.0], [90.0, 0.0]];
         let aim = (to - from).normalize();
         let shine = Shine::Table { aim, rows };
-        self.lamps.push(Lamp { position: from, shine, found: Found::Joins });
+        self.lamps.push(Lamp { position: from, shine, found: FoundBy::Joins });
     }
 
     /// Has the reference find the light of all lamps, faces, sky and sun in one way.
-    pub(super) fn find_all(&mut self, found: Found) {
+    pub(super) fn find_all(&mut self, found: FoundBy) {
         self.lamps.iter_mut().for_each(|lamp| lamp.found = found);
         (self.emitters_found, self.sky_found, self.sun_found) = (found, found, found);
     }
@@ -299,7 +299,7 @@ impl Room {
 
     /// How the reference finds the light of this room.
     pub(crate) fn witness(&self) -> Vec<&'static str> {
-        let mut ways: Vec<Found> = self.lamps.iter().map(|lamp| lamp.found).collect();
+        let mut ways: Vec<FoundBy> = self.lamps.iter().map(|lamp| lamp.found).collect();
         if self.faces.iter().any(|face| face.luminance_cd_m2 > 0.0) {
             ways.push(self.emitters_found);
         }
@@ -308,9 +308,9 @@ impl Room {
             ways.extend(outside.sun.map(|_| self.sun_found));
         }
         let is_told = !self.hints.is_empty() || !self.aims.is_empty();
-        let own = |way: Found| ways.contains(&way).then(|| way.name());
+        let own = |way: FoundBy| ways.contains(&way).then(|| way.name());
         let told = is_told.then_some("told where to look");
-        Found::ALL.into_iter().filter_map(own).chain(told).collect()
+        FoundBy::ALL.into_iter().filter_map(own).chain(told).collect()
     }
 
     /// Adds a panel with edges `u` and `v` that shines along `u x v`.

@@ -10,7 +10,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Instant;
 
 /// A room made ready to be run in.
-pub struct Stage {
+pub struct RunSettings {
     scene: Scene,
     slots: Vec<Slot>,
 }
@@ -24,7 +24,7 @@ struct Watch<'a> {
     looks: Vec<LookRecord>,
 }
 
-impl Stage {
+impl RunSettings {
     /// The room as quasilux loads it.
     ///
     /// # Errors

@@ -39,7 +39,7 @@ impl PointRecord {
 impl Truth {
     /// What a value is held against; `None` where there is no reference for its disc.
     #[must_use]
-    pub fn of(&self, place: usize, point: &PointRecord, rel_tol: f64) -> Option<Reference> {
+    pub fn at_place(&self, place: usize, point: &PointRecord, rel_tol: f64) -> Option<Reference> {
         let Some(radius_m) = point.blurred_over_m(rel_tol) else {
             return Some(self.points.points[place]);
         };
@@ -88,7 +88,7 @@ mod tests {
             disc_radius_m: Some(radius_m),
         };
         let found = |merged_lx, radius_m| {
-            truth.of(0, &point(merged_lx, radius_m), 0.03).map(|reference| reference.lx)
+            truth.at_place(0, &point(merged_lx, radius_m), 0.03).map(|reference| reference.lx)
         };
         assert_eq!(found(0.002, 0.1), Some(1.0), "less than a tenth of the tolerance");
         assert_eq!(found(0.004, 0.1), Some(2.0));

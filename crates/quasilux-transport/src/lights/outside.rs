@@ -193,8 +193,8 @@ impl<'a> OutsideLight<'a> {
         self.sun.as_ref().filter(on_disk).map_or(0.0, |sun| sun.luminance_cd_m2)
     }
 
-    /// A direction to ask along for sky and ground through an opening or in a bright pixel, with its
-    /// density in sr^-1.
+    /// A direction to ask along for sky and ground through an opening or in a bright pixel, with
+    /// its density in sr^-1.
     pub(crate) fn sample_asked(&self, place: Asking, u: [f64; 2]) -> Option<DrawnDirection> {
         let seen = self.seen(place);
         let direction = self.sample_direction(&seen, place, u)?;

@@ -1,7 +1,7 @@
 //! Faint narrow beams where few look: on cells, beside shaded sensors, on a facet of metal.
 
 use crate::dice::Dice;
-use crate::room::{Found, Parallelogram, Room, Surface};
+use crate::room::{FoundBy, Parallelogram, Room, Surface};
 use crate::shell::{Block, Side};
 use glam::DVec3;
 
@@ -22,7 +22,7 @@ pub(crate) fn thin_beams(dice: &mut Dice) -> Room {
         let to = dice.within(DVec3::new(0.6, 0.6, 0.8), DVec3::new(5.4, 4.4, 0.8));
         room.add_beam(from, to, half_deg, flux_lm);
     }
-    room.lamps[1..].iter_mut().for_each(|lamp| lamp.found = Found::BeamsAndJoins);
+    room.lamps[1..].iter_mut().for_each(|lamp| lamp.found = FoundBy::BeamsAndJoins);
     for column in 0..3 {
         for row in 0..3 {
             let middle = DVec3::new(1.0 + 2.0 * f64::from(column), 1.0 + 1.5 * f64::from(row), 0.8);

@@ -1,7 +1,7 @@
 //! Bodies of clear glass: balls, slabs in series.
 
 use crate::dice::Dice;
-use crate::room::{Found, Lookout, Parallelogram, Room, Surface};
+use crate::room::{FoundBy, Lookout, Parallelogram, Room, Surface};
 use crate::shell::{Block, Opening, Side};
 use glam::DVec3;
 
@@ -15,7 +15,7 @@ pub(crate) fn ball(dice: &mut Dice) -> Room {
     room.add_ball(middle, radius, Surface::Glass(dice.draw("eta", 1.3, 1.8)));
     let place = dice.within(DVec3::new(1.5, 1.5, 1.0), DVec3::new(3.5, 3.5, 2.3));
     room.add_lamp(place, dice.log("lamp cd", 1.0, 1000.0));
-    room.find_all(Found::Joins);
+    room.find_all(FoundBy::Joins);
     let floor = DVec3::new(1.5 * radius, 1.5 * radius, 0.001);
     room.add_cell(floor, DVec3::Z, radius);
     let wall = DVec3::new(0.001, middle.y, middle.z);
@@ -42,8 +42,8 @@ pub(crate) fn keyhole_ball(dice: &mut Dice) -> Room {
     let intensity_cd = dice.log("downlights cd", 100.0, 30_000.0);
     room.add_downlight(DVec3::new(1.2, 5.5, 2.5), intensity_cd);
     room.add_downlight(DVec3::new(2.8, 6.5, 2.5), intensity_cd);
-    room.find_all(Found::Joins);
-    room.lamps[1..].iter_mut().for_each(|lamp| lamp.found = Found::BeamsAndJoins);
+    room.find_all(FoundBy::Joins);
+    room.lamps[1..].iter_mut().for_each(|lamp| lamp.found = FoundBy::BeamsAndJoins);
     let Block { low, high } = bright;
     room.aims.push(Lookout { shape: hole.at(4.05), low, high });
     room.aim_share = 0.5;

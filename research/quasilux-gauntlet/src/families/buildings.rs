@@ -1,7 +1,7 @@
 //! Large, long and tiny places: decks, stairs, tunnels, corridors with niches.
 
 use crate::dice::Dice;
-use crate::room::{Found, Lamp, Parallelogram, Room, Shine, Surface};
+use crate::room::{FoundBy, Lamp, Parallelogram, Room, Shine, Surface};
 use crate::shell::{Block, Opening, Side};
 use glam::DVec3;
 
@@ -146,7 +146,7 @@ pub(crate) fn niche(dice: &mut Dice) -> Room {
     let rows =
         vec![[0.0, intensity_cd], [half_deg, intensity_cd], [1.2 * half_deg, 0.0], [90.0, 0.0]];
     let shine = Shine::Table { aim, rows };
-    room.lamps.push(Lamp { position: lamp, shine, found: Found::Paths });
+    room.lamps.push(Lamp { position: lamp, shine, found: FoundBy::Paths });
     let screens = dice.count("screens", 1, 3);
     let mut before = 0.0;
     for screen in 1..=screens {

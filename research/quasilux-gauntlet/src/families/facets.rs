@@ -1,7 +1,7 @@
 //! Plane mirrors that light depends on: kaleidoscopes, facets that focus, chips.
 
 use crate::dice::Dice;
-use crate::room::{Found, Lookout, Parallelogram, Room, Surface};
+use crate::room::{FoundBy, Lookout, Parallelogram, Room, Surface};
 use crate::shell::{Block, Opening, Side};
 use glam::DVec3;
 use std::f64::consts::TAU;
@@ -100,7 +100,7 @@ fn add_mirror(room: &mut Room, Chip { middle, side }: Chip, ends: [DVec3; 2]) {
     let (low, high) = (DVec3::NEG_INFINITY, DVec3::INFINITY);
     room.aims.push(Lookout { shape: mirror, low, high });
     room.aim_share = 0.3;
-    room.find_all(Found::Joins);
+    room.find_all(FoundBy::Joins);
 }
 
 /// A chip of mirror throws a beam on a cell and on a place.
@@ -166,6 +166,6 @@ pub(crate) fn mirror_wall(dice: &mut Dice) -> Room {
         let normal = dice.normal();
         room.add_cell(place, normal, 0.25);
     }
-    room.find_all(Found::Joins);
+    room.find_all(FoundBy::Joins);
     room
 }

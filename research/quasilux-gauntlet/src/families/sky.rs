@@ -1,7 +1,7 @@
 //! Light of the sky from above: wells, pipes, roofs.
 
 use crate::dice::Dice;
-use crate::room::{Found, Outside, Room, SkyKind, Surface};
+use crate::room::{FoundBy, Outside, Room, SkyKind, Surface};
 use crate::shell::{Block, Opening, Side};
 use glam::DVec3;
 
@@ -118,6 +118,6 @@ pub(crate) fn slits(dice: &mut Dice) -> Room {
         way
     };
     room.ways_in = holes.iter().map(turned).collect();
-    room.sky_found = Found::BeamsAndJoins;
+    room.sky_found = FoundBy::BeamsAndJoins;
     room
 }

@@ -1,7 +1,7 @@
 //! Small bright things: a beam on a wall, a lamp in a tube, a panel of a few centimetres.
 
 use crate::dice::Dice;
-use crate::room::{Found, Lamp, Parallelogram, Room, Shine, Surface};
+use crate::room::{FoundBy, Lamp, Parallelogram, Room, Shine, Surface};
 use crate::shell::{Block, Opening, Side};
 use glam::DVec3;
 
@@ -22,7 +22,7 @@ pub(crate) fn beam(dice: &mut Dice) -> Room {
     let target = DVec3::new(0.0, dice.draw("spot y m", 2.0, 4.5), dice.draw("spot z m", 0.8, 1.8));
     let aim = (target - lamp).normalize();
     let shine = Shine::Table { aim, rows };
-    room.lamps.push(Lamp { position: lamp, shine, found: Found::Joins });
+    room.lamps.push(Lamp { position: lamp, shine, found: FoundBy::Joins });
     room.scatter(dice, DVec3::new(0.4, 0.4, 0.4), DVec3::new(5.0, 4.6, 1.4), 8);
     let radius = (target - lamp).length() * libm::tan(edge_deg.to_radians()) / aim.x.abs();
     let spot = Opening {

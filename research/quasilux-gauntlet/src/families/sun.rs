@@ -1,7 +1,7 @@
 //! The sun through pinholes, glass and doors, and on mirrors.
 
 use crate::dice::Dice;
-use crate::room::{Found, Outside, Parallelogram, Room, SkyKind, SunPlace, Surface};
+use crate::room::{FoundBy, Outside, Parallelogram, Room, SkyKind, SunPlace, Surface};
 use crate::shell::{Block, Opening, Side};
 use glam::DVec3;
 
@@ -61,7 +61,7 @@ pub(crate) fn pinholes(dice: &mut Dice) -> Room {
     room.ways_in = holes.iter().map(|&hole| way_in(hole)).collect();
     room.add_lamp(DVec3::new(3.0, 4.0, 2.5), dice.log("lamp cd", 0.1, 10.0));
     add_cells(&mut room, dice, 0.8);
-    (room.sun_found, room.sky_found) = (Found::BeamsAndJoins, Found::BeamsAndJoins);
+    (room.sun_found, room.sky_found) = (FoundBy::BeamsAndJoins, FoundBy::BeamsAndJoins);
     if dice.coin("openings named") {
         room.openings = room.ways_in.clone();
     }
@@ -81,7 +81,7 @@ pub(crate) fn glass_body(dice: &mut Dice) -> Room {
     add_sun(&mut room, dice);
     add_cells(&mut room, dice, 0.4);
     room.add_hints(block, [window.at(0.0)]);
-    room.sun_found = Found::Joins;
+    room.sun_found = FoundBy::Joins;
     room
 }
 
@@ -99,7 +99,7 @@ pub(crate) fn panes(dice: &mut Dice) -> Room {
     room.ways_in = vec![way_in(window)];
     add_cells(&mut room, dice, 0.4);
     room.add_hints(block, [window.at(0.0)]);
-    (room.sun_found, room.hint_shares) = (Found::Joins, [0.4, 0.1]);
+    (room.sun_found, room.hint_shares) = (FoundBy::Joins, [0.4, 0.1]);
     if dice.coin("openings named") {
         room.openings = room.ways_in.clone();
     }
@@ -153,7 +153,7 @@ pub(crate) fn mirror(dice: &mut Dice) -> Room {
         room.add_cell(place, DVec3::NEG_Z, 0.3);
     }
     room.add_hints(block, [window.at(0.0)]);
-    (room.sun_found, room.hint_shares) = (Found::Joins, [0.4, 0.1]);
+    (room.sun_found, room.hint_shares) = (FoundBy::Joins, [0.4, 0.1]);
     room
 }
 
@@ -198,6 +198,6 @@ pub(crate) fn door(dice: &mut Dice) -> Room {
     add_sun(&mut room, dice);
     room.ways_in = vec![way_in(hole)];
     add_cells(&mut room, dice, 0.5);
-    (room.sun_found, room.sky_found) = (Found::BeamsAndJoins, Found::BeamsAndJoins);
+    (room.sun_found, room.sky_found) = (FoundBy::BeamsAndJoins, FoundBy::BeamsAndJoins);
     room
 }

@@ -1,7 +1,7 @@
 //! White, glossy and scattering surfaces, and places close to them.
 
 use crate::dice::Dice;
-use crate::room::{Found, Lookout, Room, Surface};
+use crate::room::{FoundBy, Lookout, Room, Surface};
 use crate::shell::{Block, Opening, Side};
 use glam::DVec3;
 
@@ -19,7 +19,7 @@ pub(crate) fn lit_through_hole(dice: &mut Dice) -> Room {
     room.add_tunnel(hole.tunnel(2.5, 2.501), 2, Surface::Grey(0.3));
     let lamp = dice.within(DVec3::new(0.8, 1.0, 3.2), DVec3::new(1.8, 2.0, 4.5));
     room.add_downlight(lamp, dice.log("lamp cd", 100.0, 1e5));
-    room.find_all(Found::KeyholesAndJoins);
+    room.find_all(FoundBy::KeyholesAndJoins);
     let Block { low, high } = above;
     room.aims.push(Lookout { shape: hole.at(2.501), low, high });
     room.aim_share = 0.7;

@@ -61,7 +61,7 @@ impl Caps {
         };
         let peaks = Peaks::new(world);
         let scatters =
-            (0..world.facets.len()).filter(|it| peaks.of(world, *it as u32).value_sr > 0.0);
+            (0..world.facets.len()).filter(|it| peaks.at_facet(world, *it as u32).value_sr > 0.0);
         let facets: Vec<usize> = scatters.collect();
         let boxes: Vec<[DVec3; 2]> = facets.iter().map(|it| corners(*it)).collect();
         let surfaces = Surfaces { world, peaks, tree: BoxTree::new(&boxes), facets };
@@ -260,10 +260,10 @@ struct Peaks(Vec<Peak>);
 
 impl Peaks {
     fn new<S: Spectrum>(world: &World<S>) -> Self {
-        Self(world.bsdfs().iter().map(Peak::of).collect())
+        Self(world.bsdfs().iter().map(Peak::new).collect())
     }
 
-    fn of<S: Spectrum>(&self, world: &World<S>, facet: u32) -> Peak {
+    fn at_facet<S: Spectrum>(&self, world: &World<S>, facet: u32) -> Peak {
         self.0[world.facets[facet as usize].material as usize]
     }
 
@@ -286,10 +286,10 @@ impl<S: Spectrum> Surfaces<'_, S> {
     /// to, over the chance of that, in sr^-1 m^-2.
     fn joined(&self, receiver: &Receiver) -> f64 {
         let corners = receiver.corners();
-        let value = Joined { surfaces: self, receiver, corners };
+        let value = JoinBound { surfaces: self, receiver, corners };
         let at_most = supremum(self.world, &self.tree, &self.facets, &value);
-        let chance = self.peaks.0.iter().map(|peak| peak.value_sr).fold(0.0, f64::max);
-        at_most.max(chance * receiver.sure_m2)
+        let scattered_sr = self.peaks.0.iter().map(|peak| peak.value_sr).fold(0.0, f64::max);
+        at_most.max(scattered_sr * receiver.sure_m2)
     }
 
     /// At least the largest of what the lights without extent give, times pi and the scattering
@@ -335,7 +335,7 @@ impl<S: Spectrum> Lit<'_, '_, S> {
         self.surfaces.map_or(
             Peak { value_sr, with_cosine_sr: value_sr, is_lambertian: true },
             |surfaces| {
-                surfaces.peaks.of(surfaces.world, surfaces.facets[part.facet as usize] as u32)
+                surfaces.peaks.at_facet(surfaces.world, surfaces.facets[part.facet as usize] as u32)
             },
         )
     }
@@ -396,14 +396,14 @@ fn most_cd(light: &IntensityBound, way: DVec3, radius_m: f64) -> f64 {
 }
 
 /// What a lumen at a light vertex gives to a target, in sr^-1 m^-2.
-struct Joined<'s, 'w, S> {
+struct JoinBound<'s, 'w, S> {
     surfaces: &'s Surfaces<'w, S>,
     receiver: &'s Receiver,
     /// Of a cell, or four times the point.
     corners: [DVec3; 4],
 }
 
-impl<S: Spectrum> Joined<'_, '_, S> {
+impl<S: Spectrum> JoinBound<'_, '_, S> {
     /// The least distance to a place, the largest height of a place over the target, by how far the
     /// target reaches around its centre.
     fn reach_m(&self) -> f64 {
@@ -419,7 +419,7 @@ impl<S: Spectrum> Joined<'_, '_, S> {
     }
 }
 
-impl<S: Spectrum> Bounded for Joined<'_, '_, S> {
+impl<S: Spectrum> Bounded for JoinBound<'_, '_, S> {
     fn over_box(&self, low: DVec3, high: DVec3) -> f64 {
         let position = self.receiver.position;
         let distance_m = (position - position.clamp(low, high)).length() - self.reach_m();
@@ -466,10 +466,10 @@ impl<S: Spectrum> Bounded for Joined<'_, '_, S> {
     }
 }
 
-impl<S: Spectrum> Joined<'_, '_, S> {
+impl<S: Spectrum> JoinBound<'_, '_, S> {
     fn peak(&self, part: &SeenPart) -> Peak {
         let Surfaces { world, peaks, facets, .. } = self.surfaces;
-        peaks.of(world, facets[part.facet as usize] as u32)
+        peaks.at_facet(world, facets[part.facet as usize] as u32)
     }
 
     /// The cosine on the facet of something that is at least as far.

@@ -35,8 +35,8 @@ impl<'l, 'a, S: Spectrum> Engine<'l, 'a, S> {
         Self {
             context,
             plan: Plan::new(context, targets),
-            emitters_found_by: FoundBy::of(emitters_lx, emitters_lm),
-            sky_found_by: FoundBy::of(sky_lx, outside_lm),
+            emitters_found_by: FoundBy::new(emitters_lx, emitters_lm),
+            sky_found_by: FoundBy::new(sky_lx, outside_lm),
             sources,
         }
     }

@@ -19,7 +19,7 @@ use crate::world::frame::Frame;
 use crate::world::vertex::{Surface, Vertex};
 use crate::world::visibility::ShadowQueue;
 use crate::world::{Interaction, RayOrigin};
-use asking::Asker;
+use asking::EyeVertex;
 use glam::DVec3;
 use quasilux_bvh::{Hit, RayQuery};
 use quasilux_sampling::Sampler;
@@ -79,7 +79,7 @@ struct EyePath<'p, S> {
 struct EyeWeights([SubpathWeights; 2]);
 
 impl EyeWeights {
-    fn of(self, found: FoundBy) -> SubpathWeights {
+    fn select(self, found: FoundBy) -> SubpathWeights {
         match found {
             FoundBy::EyePaths => self.0[0],
             FoundBy::Photons => self.0[1],
@@ -105,12 +105,12 @@ impl<S> Default for EyePaths<S> {
 }
 
 /// The sums of all sections, with their unit.
-pub(super) struct Found<'f> {
+pub(super) struct SectionSums<'f> {
     pub(super) sums: &'f mut [TargetSums],
     pub(super) quantum: Quantum,
 }
 
-impl Found<'_> {
+impl SectionSums<'_> {
     fn add<S: Spectrum>(&mut self, section: usize, bounces: u32, light: S) {
         self.sums[section].add(bounces, light.luminance(), self.quantum);
     }
@@ -122,7 +122,7 @@ impl<S: Spectrum> EyePaths<S> {
         &mut self,
         engine: &Engine<'_, '_, S>,
         starts: impl Iterator<Item = Start<'p, S>>,
-        found: &mut Found<'_>,
+        found: &mut SectionSums<'_>,
     ) where
         S: 'p,
     {
@@ -208,11 +208,11 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
         let photons = engine.plan.photons(receiver, false, FoundBy::Photons);
         let weights = EyeWeights([SubpathWeights::new(photons, 0.0); 2]);
         work.shadows.max_bounces = context.max_bounces.unwrap_or(u32::MAX);
-        let asker = &Asker { vertex, weights };
+        let eye_vertex = &EyeVertex { vertex, weights };
         if receiver.is_cell() {
-            path.ask_all_pointlikes(engine, asker, work);
+            path.sample_direct_all_pointlikes(engine, eye_vertex, work);
         }
-        path.ask_areas(engine, asker, work);
+        path.sample_direct_areas(engine, eye_vertex, work);
         path
     }
 
@@ -222,7 +222,7 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
         engine: &Engine<'_, '_, S>,
         at: Option<&Interaction>,
         work: &mut EyePaths<S>,
-        found: &mut Found<'_>,
+        found: &mut SectionSums<'_>,
     ) -> bool {
         let context = engine.context;
         let Some(at) = at else {
@@ -248,10 +248,10 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
         self.bounces_asked = self.bounces + 1;
         work.shadows.max_bounces =
             context.max_bounces.map_or(u32::MAX, |most| most - self.bounces_asked);
-        let asker = &Asker { vertex, weights: here };
-        self.ask_pointlike(engine, asker, work);
-        self.ask_areas(engine, asker, work);
-        self.connect(engine, asker, work);
+        let eye_vertex = &EyeVertex { vertex, weights: here };
+        self.sample_direct_pointlike(engine, eye_vertex, work);
+        self.sample_direct_areas(engine, eye_vertex, work);
+        self.connect(engine, eye_vertex, work);
         let next = bsdf.sample(wo, at.front, TransportMode::Radiance, &mut self.sampler);
         let Some(next) = next else { return false };
         let pdfs_sr = [bsdf.survival_pdf_sr(wo, next.wi), bsdf.survival_pdf_sr(next.wi, wo)];
@@ -301,7 +301,7 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
         let joins = plan.joins(self.receiver, geometry_m2);
         EyeWeights(FoundBy::BOTH.map(|found| {
             let photons = plan.photons(self.receiver, is_narrow(bsdf), found);
-            arrived.of(found).times(joins, photons)
+            arrived.select(found).times(joins, photons)
         }))
     }
 
@@ -334,7 +334,7 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
         engine: &Engine<'_, '_, S>,
         at: &Interaction,
         arrived: EyeWeights,
-        found: &mut Found<'_>,
+        found: &mut SectionSums<'_>,
     ) {
         let context = engine.context;
         let emitted_cd_m2 = context.world.emitted_cd_m2(at);
@@ -345,7 +345,7 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
             self.asked_from.map_or(0.0, |place| emitters.pdf_m2(&context.world, place, asked));
         let cos = at.n.dot(self.direction).abs();
         let emission = engine.sources.of_emitters_per_lm() * emitted_cd_m2 * cos;
-        let weights = self.straight(engine, arrived).of(engine.emitters_found_by);
+        let weights = self.straight(engine, arrived).select(engine.emitters_found_by);
         let weight = weights.of_hit(pdf_m2, emission);
         found.add(self.section, self.bounces, self.beta * (emitted_cd_m2 * weight));
     }
@@ -360,14 +360,14 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
     }
 
     /// Adds what it finds where it leaves the scene.
-    fn add_outside(&self, engine: &Engine<'_, '_, S>, found: &mut Found<'_>) {
+    fn add_outside(&self, engine: &Engine<'_, '_, S>, found: &mut SectionSums<'_>) {
         let Some(outside) = &engine.context.lights.outside else { return };
         let (direction, position) = (self.direction, self.from.position());
         let weights = self.straight(engine, self.weights);
         let share = |asked_sr: f64, of_sun: bool| {
             let found_by = if of_sun { FoundBy::Photons } else { engine.sky_found_by };
             weights
-                .of(found_by)
+                .select(found_by)
                 .of_hit(asked_sr, engine.sources.pdf_line(position, -direction, of_sun))
         };
         let sky_cd_m2 = outside.luminance_cd_m2(direction);

@@ -100,7 +100,10 @@ pub(super) struct LightSubpaths<S> {
 
 impl<S> LightSubpaths<S> {
     /// Those of one, in the order in which it met them.
-    pub(super) fn of(&self, subpath: usize) -> impl Iterator<Item = &LightVertex<S>> + Clone {
+    pub(super) fn vertices_of(
+        &self,
+        subpath: usize,
+    ) -> impl Iterator<Item = &LightVertex<S>> + Clone {
         self.order[self.own[subpath].clone()].iter().map(|place| &self.vertices[*place as usize])
     }
 }
@@ -262,7 +265,7 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
         cos: f64,
     ) -> SubpathWeights {
         let takes_both_sides = bsdf.transmits();
-        let landing = Landing {
+        let arrival = Arrival {
             place: Asking {
                 position: at.position,
                 side: (!takes_both_sides).then_some(at.n),
@@ -275,9 +278,9 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
             is_cell: false,
         };
         match self.leg.last {
-            LastVertex::Light if bsdf.is_specular() => landing.on_mirror(engine, &self.photon),
-            LastVertex::Light => landing.of_photon(engine, &self.photon),
-            LastVertex::Surface { .. } => self.leg.weights.arrived(landing.distance_m, cos),
+            LastVertex::Light if bsdf.is_specular() => arrival.on_mirror(engine, &self.photon),
+            LastVertex::Light => arrival.of_photon(engine, &self.photon),
+            LastVertex::Surface { .. } => self.leg.weights.arrived(arrival.distance_m, cos),
         }
     }
 }
@@ -313,8 +316,8 @@ impl<S: Spectrum> Passing<'_, S> {
             LastVertex::Light => {
                 let place = Asking { position, side: Some(n), own: None };
                 let direction = self.flight.direction;
-                let landing = Landing { place, n, distance_m, direction, cos, is_cell };
-                landing.of_photon(engine, self.photon)
+                let arrival = Arrival { place, n, distance_m, direction, cos, is_cell };
+                arrival.of_photon(engine, self.photon)
             }
             LastVertex::Surface { .. } => self.leg.weights.arrived(distance_m, cos),
         }
@@ -322,7 +325,7 @@ impl<S: Spectrum> Passing<'_, S> {
 }
 
 /// Where a photon lands straight from its light, panes between or not.
-struct Landing {
+struct Arrival {
     place: Asking,
     n: DVec3,
     distance_m: f64,
@@ -332,7 +335,7 @@ struct Landing {
     is_cell: bool,
 }
 
-impl Landing {
+impl Arrival {
     /// On a surface that asks for light: the densities of doing so, and of running into the light,
     /// over that of the photon.
     fn of_photon<S: Spectrum>(
@@ -361,7 +364,7 @@ impl Landing {
                 SubpathWeights::new(choice / photons_m2, 0.0)
             }
             LightKind::Emitters => {
-                let emission = Emission::of(engine, photon);
+                let emission = Emission::new(engine, photon);
                 let asked = EmitterPlace { facet: emission.facet, position: emission.position };
                 let pdf_m2 = lights
                     .emitters
@@ -395,7 +398,7 @@ impl Landing {
         match photon.kind {
             LightKind::Pointlike(_) | LightKind::Luminaire(_) => SubpathWeights::default(),
             LightKind::Emitters => {
-                let emission = Emission::of(engine, photon);
+                let emission = Emission::new(engine, photon);
                 SubpathWeights::new(0.0, emission.cos / emission.per_m2_sr / self.cos)
             }
             LightKind::WayIn(_) => {
@@ -417,7 +420,7 @@ struct Emission {
 }
 
 impl Emission {
-    fn of<S: Spectrum>(engine: &Engine<'_, '_, S>, photon: &Photon) -> Self {
+    fn new<S: Spectrum>(engine: &Engine<'_, '_, S>, photon: &Photon) -> Self {
         let (from, direction) = (photon.emission.from, photon.emission.direction);
         let facet = from.facet().expect("it left a facet");
         let on = &engine.context.world.facets[facet as usize];

@@ -24,7 +24,7 @@ pub(super) struct Peak {
 
 impl Peak {
     /// Nothing, of surfaces that scatter into finitely many directions.
-    pub(super) fn of<S: Spectrum>(bsdf: &Bsdf<S>) -> Self {
+    pub(super) fn new<S: Spectrum>(bsdf: &Bsdf<S>) -> Self {
         match bsdf {
             Bsdf::Mirror(_) | Bsdf::Dielectric(_) | Bsdf::Pane(_) => Self::default(),
             Bsdf::Diffuse(_) | Bsdf::Translucent(_) => {

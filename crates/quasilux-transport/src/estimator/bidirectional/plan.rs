@@ -38,7 +38,7 @@ impl FoundBy {
 
     /// Where a path that runs into the light finds `met_lx` at most, and a photon stands for this
     /// flux.
-    pub(super) fn of(met_lx: f64, flux_lm: f64) -> Self {
+    pub(super) fn new(met_lx: f64, flux_lm: f64) -> Self {
         let on_a_disc_lx = flux_lm / (PI * RADIUS_M * RADIUS_M);
         if met_lx <= on_a_disc_lx { Self::EyePaths } else { Self::Photons }
     }

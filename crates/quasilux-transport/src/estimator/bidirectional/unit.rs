@@ -5,7 +5,7 @@
 
 use super::counters::{Counters, Crossing};
 use super::engine::Engine;
-use super::eye_path::{EyePaths, Found, Start};
+use super::eye_path::{EyePaths, SectionSums, Start};
 use super::joins::Joiner;
 use super::light_subpath::LightSubpaths;
 use super::plan::Receiver;
@@ -105,7 +105,7 @@ impl Unit<'_> {
                 joiner.next = points.coordinate(index, 2);
                 let first = (place * plan.subpaths + plan.first_joined(*target, index)) as usize;
                 for subpath in first..first + plan.joined as usize {
-                    joiner.join(engine, section as u32, light.of(subpath), &mut shadows);
+                    joiner.join(engine, section as u32, light.vertices_of(subpath), &mut shadows);
                 }
             }
             asked += 1;
@@ -129,7 +129,7 @@ impl Unit<'_> {
     ) -> WorkCounts {
         let Engine { context, plan, .. } = engine;
         let mut paths = EyePaths::default();
-        let mut found = Found { sums, quantum };
+        let mut found = SectionSums { sums, quantum };
         let at_once = (WAVE / (self.indices.end - self.indices.start)).max(1) as usize;
         for first in (0..self.targets.len()).step_by(at_once) {
             let sections = first..(first + at_once).min(self.targets.len());

@@ -19,32 +19,36 @@ use quasilux_sampling::choose_weights;
 const CANDIDATES: usize = 4;
 
 /// What is asked at a vertex.
-pub(super) struct Asker<'v, 'w, S> {
+pub(super) struct EyeVertex<'v, 'w, S> {
     pub(super) vertex: &'v Vertex<'w, S>,
     pub(super) weights: EyeWeights,
 }
 
 impl<S: Spectrum> EyePath<'_, S> {
     /// Asks for the light of every light without extent.
-    pub(super) fn ask_all_pointlikes(
+    pub(super) fn sample_direct_all_pointlikes(
         &self,
         engine: &Engine<'_, '_, S>,
-        asker: &Asker<'_, '_, S>,
+        eye_vertex: &EyeVertex<'_, '_, S>,
         work: &mut EyePaths<S>,
     ) {
         let pointlikes = &engine.context.lights.pointlikes;
         for number in 0..pointlikes.len() {
-            let sample = pointlikes.light_sample_of(number, asker.vertex);
+            let sample = pointlikes.light_sample_of(number, eye_vertex.vertex);
             let per_lm = engine.sources.per_lm(number);
-            self.ask(sample.map(|it| asker.beside_landings(it, per_lm, 1.0)), asker, work);
+            self.ask(
+                sample.map(|it| eye_vertex.beside_landings(it, per_lm, 1.0)),
+                eye_vertex,
+                work,
+            );
         }
     }
 
     /// Asks for the light of one light without extent.
-    pub(super) fn ask_pointlike(
+    pub(super) fn sample_direct_pointlike(
         &mut self,
         engine: &Engine<'_, '_, S>,
-        asker: &Asker<'_, '_, S>,
+        eye_vertex: &EyeVertex<'_, '_, S>,
         work: &mut EyePaths<S>,
     ) {
         let pointlikes = &engine.context.lights.pointlikes;
@@ -52,33 +56,33 @@ impl<S: Spectrum> EyePath<'_, S> {
             return;
         }
         let u = if pointlikes.len() > 1 { self.sampler.next_1d() } else { 0.0 };
-        let place = Asking::at(asker.vertex);
+        let place = Asking::at(eye_vertex.vertex);
         let Some(Choice { number, pdf }) = pointlikes.choose(place, u, &mut work.choice) else {
             let sample = LightSample::without_choice(work.choice.total());
-            self.ask(sample, asker, work);
+            self.ask(sample, eye_vertex, work);
             return;
         };
-        let sample = pointlikes.light_sample_of(number, asker.vertex);
+        let sample = pointlikes.light_sample_of(number, eye_vertex.vertex);
         let per_lm = engine.sources.per_lm(number);
-        self.ask(sample.map(|it| asker.beside_landings(it, per_lm, pdf)), asker, work);
+        self.ask(sample.map(|it| eye_vertex.beside_landings(it, per_lm, pdf)), eye_vertex, work);
     }
 
     /// Asks for the light of lights with an extent, and from outside.
-    pub(super) fn ask_areas(
+    pub(super) fn sample_direct_areas(
         &mut self,
         engine: &Engine<'_, '_, S>,
-        asker: &Asker<'_, '_, S>,
+        eye_vertex: &EyeVertex<'_, '_, S>,
         work: &mut EyePaths<S>,
     ) {
-        self.ask_luminaire(engine, asker, work);
-        self.ask_emitter(engine, asker, work);
-        self.ask_outside(engine, asker, work);
+        self.sample_direct_luminaire(engine, eye_vertex, work);
+        self.sample_direct_emitter(engine, eye_vertex, work);
+        self.sample_direct_outside(engine, eye_vertex, work);
     }
 
-    fn ask_luminaire(
+    fn sample_direct_luminaire(
         &mut self,
         engine: &Engine<'_, '_, S>,
-        asker: &Asker<'_, '_, S>,
+        eye_vertex: &EyeVertex<'_, '_, S>,
         work: &mut EyePaths<S>,
     ) {
         let luminaires = &engine.context.lights.area_luminaires;
@@ -86,7 +90,7 @@ impl<S: Spectrum> EyePath<'_, S> {
             return;
         }
         let u = self.sampler.next_2d();
-        let vertex = asker.vertex;
+        let vertex = eye_vertex.vertex;
         let chosen = luminaires.choose(Asking::at(vertex), u, &mut work.choice);
         let Some(ChosenPlace { choice: Choice { number, pdf }, place }) = chosen else { return };
         let cos = |direction| vertex.cos(direction);
@@ -100,41 +104,41 @@ impl<S: Spectrum> EyePath<'_, S> {
             incidence.illuminance_lx,
         );
         let per_lm = engine.sources.of_luminaire_per_lm(number);
-        self.ask(sample.map(|it| asker.beside_landings(it, per_lm, pdf)), asker, work);
+        self.ask(sample.map(|it| eye_vertex.beside_landings(it, per_lm, pdf)), eye_vertex, work);
     }
 
-    fn ask_emitter(
+    fn sample_direct_emitter(
         &mut self,
         engine: &Engine<'_, '_, S>,
-        asker: &Asker<'_, '_, S>,
+        eye_vertex: &EyeVertex<'_, '_, S>,
         work: &mut EyePaths<S>,
     ) {
         let Some(emitters) = &engine.context.lights.emitters else { return };
         let u = self.sampler.next_2d();
         let per_lm = engine.sources.of_emitters_per_lm();
         let beside_sr = |point: &EmitterPoint| {
-            let to_eye = asker.to_eye(point.direction, engine.emitters_found_by);
+            let to_eye = eye_vertex.to_eye(point.direction, engine.emitters_found_by);
             let landed = product(per_lm * point.lx_sr, to_eye);
-            asker.vertex.survival_pdf_sr(point.direction) + landed
+            eye_vertex.vertex.survival_pdf_sr(point.direction) + landed
         };
         let sample = emitters.light_sample(
             &engine.context.world,
-            asker.vertex,
+            eye_vertex.vertex,
             u,
             beside_sr,
             &mut work.choice,
         );
-        self.ask(sample, asker, work);
+        self.ask(sample, eye_vertex, work);
     }
 
-    fn ask_outside(
+    fn sample_direct_outside(
         &mut self,
         engine: &Engine<'_, '_, S>,
-        asker: &Asker<'_, '_, S>,
+        eye_vertex: &EyeVertex<'_, '_, S>,
         work: &mut EyePaths<S>,
     ) {
         let Some(outside) = &engine.context.lights.outside else { return };
-        let vertex = asker.vertex;
+        let vertex = eye_vertex.vertex;
         let sample = |direction: DVec3, pdf_sr: f64, cd_m2: f64, of_sun: bool| {
             let cos = vertex.cos(direction);
             if cos <= 0.0 {
@@ -142,7 +146,7 @@ impl<S: Spectrum> EyePath<'_, S> {
             }
             let line = engine.sources.pdf_line(vertex.position(), -direction, of_sun);
             let found_by = if of_sun { FoundBy::Photons } else { engine.sky_found_by };
-            let landed = product(line * cos / pdf_sr, asker.to_eye(direction, found_by));
+            let landed = product(line * cos / pdf_sr, eye_vertex.to_eye(direction, found_by));
             let hit = vertex.survival_pdf_sr(direction) / pdf_sr;
             let lx = cd_m2 * cos / pdf_sr * of_connection(landed, hit);
             let light = vertex.weight(direction) * lx;
@@ -155,7 +159,7 @@ impl<S: Spectrum> EyePath<'_, S> {
             let found = asked.and_then(|DrawnDirection { direction, pdf_sr }| {
                 sample(direction, pdf_sr, outside.luminance_cd_m2(direction), false)
             });
-            self.ask(found, asker, work);
+            self.ask(found, eye_vertex, work);
         }
         if outside.has_sun() {
             let u = self.sampler.next_2d();
@@ -163,18 +167,18 @@ impl<S: Spectrum> EyePath<'_, S> {
             let found = outside
                 .sample_sun(u)
                 .and_then(|direction| sample(direction, cd_m2 / lx, cd_m2, true));
-            self.ask(found, asker, work);
+            self.ask(found, eye_vertex, work);
         }
     }
 
     fn ask(
         &self,
         sample: Option<LightSample<S>>,
-        asker: &Asker<'_, '_, S>,
+        eye_vertex: &EyeVertex<'_, '_, S>,
         work: &mut EyePaths<S>,
     ) {
         if let Some(sample) = sample {
-            work.shadows.ask(self.number, asker.vertex, &sample);
+            work.shadows.ask(self.number, eye_vertex.vertex, &sample);
         }
     }
 
@@ -184,12 +188,12 @@ impl<S: Spectrum> EyePath<'_, S> {
     pub(super) fn connect(
         &mut self,
         engine: &Engine<'_, '_, S>,
-        asker: &Asker<'_, '_, S>,
+        eye_vertex: &EyeVertex<'_, '_, S>,
         work: &mut EyePaths<S>,
     ) {
         let most = engine.context.max_bounces.unwrap_or(u32::MAX);
         let bounces = self.bounces_asked;
-        let own = self.light.of(self.subpath).take_while(|it| bounces + it.bounces < most);
+        let own = self.light.vertices_of(self.subpath).take_while(|it| bounces + it.bounces < most);
         let count = own.clone().count();
         if count == 0 {
             return;
@@ -199,7 +203,7 @@ impl<S: Spectrum> EyePath<'_, S> {
         let first = ((u * stride as f64) as usize).min(stride - 1);
         let u = u * stride as f64 - first as f64;
         let candidates = own.skip(first).step_by(stride);
-        let connections = candidates.filter_map(|it| asker.connection(engine, it));
+        let connections = candidates.filter_map(|it| eye_vertex.connection(engine, it));
         let connections: Vec<Connection<'_, S>> = connections.collect();
         let Some(choice) = choose_weights(u, connections.iter().map(|it| it.light.luminance()))
         else {
@@ -207,7 +211,7 @@ impl<S: Spectrum> EyePath<'_, S> {
         };
         let &Connection { vertex, direction, distance_m, light } = &connections[choice.index];
         let light = light * stride as f64;
-        let from = asker.vertex.ray_origin(direction);
+        let from = eye_vertex.vertex.ray_origin(direction);
         let ray = from.shadow_ray(direction, distance_m, vertex.at.facet);
         let (light, bounces) = (light * choice.pdf.recip(), vertex.bounces + 1);
         work.shadows.max_bounces = most - self.bounces_asked;
@@ -225,11 +229,11 @@ struct Connection<'l, S> {
     light: S,
 }
 
-impl<S: Spectrum> Asker<'_, '_, S> {
+impl<S: Spectrum> EyeVertex<'_, '_, S> {
     /// The techniques that leave this vertex and more to light subpaths, over the density with
     /// which light that comes from `direction` makes it.
     fn to_eye(&self, direction: DVec3, found: FoundBy) -> f64 {
-        self.weights.of(found).towards(self.vertex.reverse_survival_pdf_sr(direction))
+        self.weights.select(found).towards(self.vertex.reverse_survival_pdf_sr(direction))
     }
 
     /// The part of the light of a lamp that photons leave, where it is asked with this probability.
