@@ -43,6 +43,7 @@ use quasilux_sampling::warp::{sample_cosine_hemisphere, sample_uniform_sphere};
 use quasilux_sampling::{Discrete, Sampler};
 use quasilux_scene::{Light, Scene};
 use std::f64::consts::PI;
+use std::ops::Range;
 
 /// All lights of a scene.
 pub(crate) struct Lights<'a> {
@@ -192,6 +193,11 @@ impl<'a> Lights<'a> {
             None if number + 1 < self.first_way_in => LightKind::Luminaire(number - pointlikes),
             None => LightKind::Emitters,
         }
+    }
+
+    /// The numbers of the ways in, which follow that of the emitting facets.
+    pub(crate) fn ways_numbers(&self) -> Range<usize> {
+        self.first_way_in..self.len()
     }
 
     /// How photons from outside come in.

@@ -29,7 +29,7 @@ const SKY_MARGIN: f64 = 1.25;
 /// Bounds of all targets.
 pub(super) struct Caps {
     /// Of each target, `K W` in lx for one index.
-    pub(super) of_targets_lx: Vec<f64>,
+    of_targets_lx: Vec<f64>,
     /// The same of eye paths alone, the same for all targets; infinite where they cannot make all
     /// paths.
     of_eye_lx: f64,
@@ -64,7 +64,10 @@ impl Caps {
             (0..world.facets.len()).filter(|it| peaks.at_facet(world, *it as u32).value_sr > 0.0);
         let facets: Vec<usize> = scatters.collect();
         let boxes: Vec<[DVec3; 2]> = facets.iter().map(|it| corners(*it)).collect();
-        let surfaces = Surfaces { world, peaks, tree: BoxTree::new(&boxes), facets };
+        let lights = &context.lights.pointlikes;
+        let pointlikes =
+            (0..lights.len()).filter_map(|it| IntensityBound::new(lights.get(it)?)).collect();
+        let surfaces = Surfaces { world, peaks, tree: BoxTree::new(&boxes), facets, pointlikes };
         let no_bounce = context.max_bounces == Some(0);
         let kinds = kinds(engine, &surfaces);
         let most_kept = scene.materials.iter().map(|of| of.bsdf.most_kept().max_channel());
@@ -91,20 +94,15 @@ impl Caps {
         Self { of_targets_lx, of_eye_lx }
     }
 
-    /// Light in lx at each of some targets by ways on which no sample lay, at most; `trials` are
-    /// the indices of each, of all replicates.
-    pub(super) fn unseen_lx(
-        &self,
-        targets: impl Iterator<Item = usize>,
-        trials: impl Fn(usize) -> f64,
-    ) -> Vec<f64> {
+    /// Light in lx at each target by ways on which no sample lay, at most; `trials` are the indices
+    /// of each, of all replicates.
+    pub(super) fn unseen_lx(&self, trials: impl Fn(usize) -> f64) -> Vec<f64> {
         let most = -libm::log(1.0 - UNSEEN_CONFIDENCE);
-        targets
-            .map(|target| {
-                let lx = most * self.of_targets_lx[target] / trials(target);
-                if lx.is_nan() { f64::INFINITY } else { lx }
-            })
-            .collect()
+        let of_target = |(target, cap_lx): (usize, &f64)| {
+            let lx = most * cap_lx / trials(target);
+            if lx.is_nan() { f64::INFINITY } else { lx }
+        };
+        self.of_targets_lx.iter().enumerate().map(of_target).collect()
     }
 
     /// The same of the average over targets: an eye path of one of m targets adds an m-th.
@@ -144,9 +142,7 @@ impl<S: Spectrum> Class<'_, '_, '_, S> {
             return 0.0;
         }
         let straight_lx = match receiver.target {
-            Target::Cell { .. } => {
-                kind.straight_lx.or_else(|| Some(surfaces.on_cell(engine, receiver)))
-            }
+            Target::Cell { .. } => kind.straight_lx.or_else(|| Some(surfaces.on_cell(receiver))),
             Target::Point { .. } => kind.straight_lx,
         };
         if let Some(straight_lx) = straight_lx {
@@ -279,6 +275,8 @@ struct Surfaces<'w, S> {
     peaks: Peaks,
     tree: BoxTree,
     facets: Vec<usize>,
+    /// The lights without extent.
+    pointlikes: Vec<IntensityBound>,
 }
 
 impl<S: Spectrum> Surfaces<'_, S> {
@@ -295,30 +293,23 @@ impl<S: Spectrum> Surfaces<'_, S> {
     /// At least the largest of what the lights without extent give, times pi and the scattering
     /// function, over the chance of asking; infinite where a table chooses.
     fn lit_by_pointlikes(&self, engine: &Engine<'_, '_, S>) -> f64 {
-        let pointlikes = &engine.context.lights.pointlikes;
-        if pointlikes.are_many() {
+        if engine.context.lights.pointlikes.are_many() {
             return f64::INFINITY;
         }
-        let lights: Vec<IntensityBound> = (0..pointlikes.len())
-            .filter_map(|number| IntensityBound::new(pointlikes.get(number)?))
-            .collect();
+        let lights = &self.pointlikes;
         let choice = if lights.len() > 1 { CHOICE } else { 1.0 };
         let value = Lit { surfaces: Some(self), lights };
         supremum(self.world, &self.tree, &self.facets, &value) / choice
     }
 
     /// At least the most that a light without extent gives on a cell.
-    fn on_cell(&self, engine: &Engine<'_, '_, S>, receiver: &Receiver) -> f64 {
-        let pointlikes = &engine.context.lights.pointlikes;
-        let bounds =
-            (0..pointlikes.len()).filter_map(|it| IntensityBound::new(pointlikes.get(it)?));
+    fn on_cell(&self, receiver: &Receiver) -> f64 {
         let [a, b, c, d] = receiver.corners();
         let parts = [[a, b, c], [b, d, c]].map(|corners| SeenPart { corners, facet: 0 });
-        let of_light = |light: IntensityBound| {
-            let value = Lit::<S> { surfaces: None, lights: vec![light] };
-            supremum_over(parts.into_iter(), &value)
+        let of_light = |lights: &[IntensityBound]| {
+            supremum_over(parts.into_iter(), &Lit::<S> { surfaces: None, lights })
         };
-        bounds.map(of_light).fold(0.0, f64::max)
+        self.pointlikes.chunks(1).map(of_light).fold(0.0, f64::max)
     }
 }
 
@@ -326,7 +317,7 @@ impl<S: Spectrum> Surfaces<'_, S> {
 struct Lit<'s, 'w, S> {
     /// Whose facets they are, and how much they send on; `None` for illuminances alone.
     surfaces: Option<&'s Surfaces<'w, S>>,
-    lights: Vec<IntensityBound>,
+    lights: &'s [IntensityBound],
 }
 
 impl<S: Spectrum> Lit<'_, '_, S> {

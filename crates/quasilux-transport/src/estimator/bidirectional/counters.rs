@@ -11,6 +11,7 @@ use super::plan::Receiver;
 use crate::spectrum::Spectrum;
 use crate::stats::targets::Target;
 use crate::world::World;
+use crate::world::flight::Flight;
 use crate::world::grid_plane::GridPlane;
 use glam::DVec3;
 use std::f64::consts::FRAC_1_PI;
@@ -98,55 +99,57 @@ impl Counters {
         if engine.context.max_bounces.is_some_and(|most| passing.bounces > most) {
             return;
         }
-        self.boxes.on_segment(flight.from, flight.direction, flight.length_m, |thing| match &self
-            .things[thing as usize]
-        {
-            Counter::Disc { section } => {
-                let receiver = receivers[*section];
-                if passing.is_computed_at_points() {
-                    return;
+        self.boxes.on_segment(flight.from, flight.direction, flight.length_m, |thing| {
+            let crossed = match &self.things[thing as usize] {
+                Counter::Disc { section } => {
+                    let along_m = receivers[*section].crossed_by(passing);
+                    along_m.map(|along_m| Crossed { section: *section, along_m, tilt: 1.0 })
                 }
-                let Some(along_m) = receiver.crossed_at(flight.from, flight.direction) else {
-                    return;
-                };
-                if along_m < flight.length_m {
-                    let light = share(engine, receiver, passing, along_m, receiver.n);
-                    take(Crossing { section: *section, light, bounces: passing.bounces });
-                }
-            }
-            Counter::Cells(cells) => {
-                let Cells { plane, behind, sections } = cells.as_ref();
-                for plane in std::iter::once(plane).chain(behind) {
-                    let Some(cell) = plane.cell(flight) else { continue };
-                    let Ok(own) = sections.binary_search_by_key(&cell, |(cell, _)| *cell) else {
-                        continue;
-                    };
-                    let section = sections[own].1;
-                    let receiver = receivers[section];
-                    let tilt = plane.tilt_factor(flight.direction);
-                    let along_m = plane.distance_m(flight);
-                    if tilt > 0.0 {
-                        let light = share(engine, receiver, passing, along_m, receiver.n);
-                        let light = light * tilt;
-                        take(Crossing { section, light, bounces: passing.bounces });
-                    }
-                }
-            }
+                Counter::Cells(cells) => cells.crossed_by(flight),
+            };
+            let Some(Crossed { section, along_m, tilt }) = crossed else { return };
+            let light = share(engine, receivers[section], passing, along_m) * tilt;
+            take(Crossing { section, light, bounces: passing.bounces });
         });
     }
 }
 
+/// Where a photon crosses a target.
+struct Crossed {
+    section: usize,
+    /// From the start of the flight.
+    along_m: f64,
+    /// Of a normal that is not that of the plane, the cosines over each other.
+    tilt: f64,
+}
+
+impl Cells {
+    /// The cell that a flight crosses, on the one side that counts or on the other.
+    fn crossed_by(&self, flight: &Flight) -> Option<Crossed> {
+        let mut planes = std::iter::once(&self.plane).chain(&self.behind);
+        planes.find_map(|plane| {
+            let cell = plane.cell(flight)?;
+            let own = self.sections.binary_search_by_key(&cell, |(cell, _)| *cell).ok()?;
+            let (section, tilt) = (self.sections[own].1, plane.tilt_factor(flight.direction));
+            let along_m = plane.distance_m(flight);
+            (tilt > 0.0).then_some(Crossed { section, along_m, tilt })
+        })
+    }
+}
+
 impl Receiver {
-    /// Where a line crosses its disc from its front.
-    fn crossed_at(&self, from: DVec3, direction: DVec3) -> Option<f64> {
+    /// Where a photon crosses its disc from its front, with light that is not computed there.
+    fn crossed_by<S: Spectrum>(&self, passing: &Passing<'_, S>) -> Option<f64> {
+        let &Flight { from, direction, length_m } = &passing.flight;
         let approach = self.n.dot(direction);
-        if approach >= 0.0 {
+        if approach >= 0.0 || passing.is_computed_at_points() {
             return None;
         }
         let along_m = (self.position - from).dot(self.n) / approach;
         let radius_m = self.radius_m?;
         let aside = from + direction * along_m - self.position;
-        (along_m > 0.0 && aside.length_squared() < radius_m * radius_m).then_some(along_m)
+        let is_on_way = 0.0 < along_m && along_m < length_m;
+        (is_on_way && aside.length_squared() < radius_m * radius_m).then_some(along_m)
     }
 }
 
@@ -156,9 +159,8 @@ fn share<S: Spectrum>(
     receiver: &Receiver,
     passing: &Passing<'_, S>,
     along_m: f64,
-    n: DVec3,
 ) -> S {
-    let plan = &engine.plan;
+    let (plan, n) = (&engine.plan, receiver.n);
     let direction = passing.flight.direction;
     let position = passing.flight.from + direction * along_m;
     let cos = -n.dot(direction);

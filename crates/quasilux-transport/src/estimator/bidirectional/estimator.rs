@@ -36,8 +36,6 @@ pub(crate) struct BidirectionalEstimator<'a, S> {
     pub(super) quantum: Quantum,
     /// Of target t in replicate r at `t * replicates + r`.
     pub(super) sums: Vec<TargetSums>,
-    /// The first index.
-    pub(super) first: u64,
     /// Indices of the last checkpoint.
     pub(super) samples: u64,
     /// Units that are over since then.
@@ -89,7 +87,6 @@ impl<'a, S: Spectrum> BidirectionalEstimator<'a, S> {
             replicates,
             quantum: Quantum::for_reference(context.lights.reference_lx(&context.world)),
             sums: vec![empty; targets.len() * replicates as usize],
-            first: 0,
             samples: 0,
             done: 0,
             growing: (0..targets.len()).collect(),
@@ -180,7 +177,7 @@ impl<S: Spectrum> Estimator for BidirectionalEstimator<'_, S> {
     fn estimates(&self) -> Estimates {
         let targets = self.ends.len();
         let trials = |target| self.samples_of(target) as f64 * f64::from(self.replicates);
-        let unseen_lx = self.caps.unseen_lx(0..targets, trials);
+        let unseen_lx = self.caps.unseen_lx(trials);
         let direct_lx = self.mean_of(|sums| sums.direct);
         let exact_lx = self.exact.iter().map(|exact| exact.direct_lx);
         let all = SensorEstimates {
@@ -226,13 +223,15 @@ impl<S: Spectrum> Estimator for BidirectionalEstimator<'_, S> {
     }
 
     fn decisions(&self) -> Decisions {
-        let Plan { subpaths, joined, receivers } = &self.engine.plan;
+        let Engine { plan, emitters_found_by, sky_found_by, .. } = &self.engine;
+        let Plan { subpaths, joined, receivers } = plan;
         Decisions {
             connected_photons: Some(*subpaths),
             digest: digest(|out| {
                 out.value(&self.quantum);
                 out.value(&self.exact.iter().map(Exact::sum_lx).collect::<Vec<f64>>());
                 out.value(&[*subpaths, *joined]);
+                out.value(&[*emitters_found_by, *sky_found_by]);
                 let of_receivers = receivers.iter().map(|it| [it.area_m2, it.sure_m2]);
                 out.value(&of_receivers.collect::<Vec<[f64; 2]>>());
             }),
@@ -249,7 +248,7 @@ impl<S: Spectrum> Estimator for BidirectionalEstimator<'_, S> {
     }
 
     fn trace_part(&mut self, part: Range<u64>, _samples: u64, watch: &mut Watch<'_>) -> bool {
-        (self.first, self.samples) = (part.start, part.start);
+        self.samples = part.start;
         self.trace_up_to(part.end, watch)
     }
 

@@ -14,7 +14,6 @@ use crate::path::sections::WorkCounts;
 use crate::path::subpath_weights::SubpathWeights;
 use crate::spectrum::Spectrum;
 use crate::stats::tally::Quantum;
-use crate::stats::targets::Target;
 use crate::world::frame::Frame;
 use crate::world::vertex::{Surface, Vertex};
 use crate::world::visibility::ShadowQueue;
@@ -111,7 +110,7 @@ pub(super) struct SectionSums<'f> {
 }
 
 impl SectionSums<'_> {
-    fn add<S: Spectrum>(&mut self, section: usize, bounces: u32, light: S) {
+    pub(super) fn add<S: Spectrum>(&mut self, section: usize, bounces: u32, light: S) {
         self.sums[section].add(bounces, light.luminance(), self.quantum);
     }
 }
@@ -133,11 +132,7 @@ impl<S: Spectrum> EyePaths<S> {
         }
         let mut travelling: Vec<u32> = (0..paths.len() as u32).collect();
         for _ in 0..MAX_EVENTS {
-            let answer = |who: u32, light: S, bounces: u32| {
-                let path = &paths[who as usize];
-                found.add(path.section, path.bounces_asked + bounces, light);
-            };
-            self.shadows.answer(&context.world, answer);
+            self.answer(engine, &paths, found);
             if travelling.is_empty() {
                 break;
             }
@@ -157,14 +152,24 @@ impl<S: Spectrum> EyePaths<S> {
             });
             self.arrivals = arrivals;
         }
-        self.shadows.answer(&context.world, |who: u32, light: S, bounces: u32| {
-            let path = &paths[who as usize];
-            found.add(path.section, path.bounces_asked + bounces, light);
-        });
+        self.answer(engine, &paths, found);
         self.work.rays += std::mem::take(&mut self.shadows.rays);
         self.work.endless += travelling.len() as u64;
         self.work.paths += paths.len() as u64;
         paths.iter().for_each(|path| self.work.dimensions.record(path.sampler.used()));
+    }
+
+    /// Adds the light that paths asked for, and that nothing stands in the way of.
+    fn answer(
+        &mut self,
+        engine: &Engine<'_, '_, S>,
+        paths: &[EyePath<'_, S>],
+        found: &mut SectionSums<'_>,
+    ) {
+        self.shadows.answer(&engine.context.world, |who: u32, light: S, bounces: u32| {
+            let path = &paths[who as usize];
+            found.add(path.section, path.bounces_asked + bounces, light);
+        });
     }
 }
 
@@ -177,13 +182,8 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
     ) -> Self {
         let Start { section, receiver, light, subpath, mut sampler } = start;
         let context = engine.context;
-        let (position, n) = match receiver.target {
-            Target::Point { position, normal } => (position, normal),
-            Target::Cell { grid, cell } => {
-                (grid.point_in_cell(cell, sampler.next_2d()), grid.normal)
-            }
-        };
-        let from = context.world.ray_origin_of_sensor(position, n);
+        let from = receiver.origin(&context.world, || sampler.next_2d());
+        let n = receiver.n;
         let local = DVec3::from_array(sample_cosine_hemisphere(sampler.next_2d()));
         let (direction, pdf_sr) = (Frame::around(n).to_world(local), local.z * FRAC_1_PI);
         let vertex = &Vertex::sensor(from, n);
@@ -205,8 +205,7 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
             bounces_asked: 0,
         };
         // Photons that come straight.
-        let photons = engine.plan.photons(receiver, false, FoundBy::Photons);
-        let weights = EyeWeights([SubpathWeights::new(photons, 0.0); 2]);
+        let weights = EyeWeights([SubpathWeights::new(receiver.area_m2, 0.0); 2]);
         work.shadows.max_bounces = context.max_bounces.unwrap_or(u32::MAX);
         let eye_vertex = &EyeVertex { vertex, weights };
         if receiver.is_cell() {
@@ -345,16 +344,15 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
             self.asked_from.map_or(0.0, |place| emitters.pdf_m2(&context.world, place, asked));
         let cos = at.n.dot(self.direction).abs();
         let emission = engine.sources.of_emitters_per_lm() * emitted_cd_m2 * cos;
-        let weights = self.straight(engine, arrived).select(engine.emitters_found_by);
+        let weights = self.straight(arrived).select(engine.emitters_found_by);
         let weight = weights.of_hit(pdf_m2, emission);
         found.add(self.section, self.bounces, self.beta * (emitted_cd_m2 * weight));
     }
 
     /// What it weighs where it runs into a light: straight from the start photons take part.
-    fn straight(&self, engine: &Engine<'_, '_, S>, weights: EyeWeights) -> EyeWeights {
-        let photons = engine.plan.photons(self.receiver, false, FoundBy::Photons);
+    fn straight(&self, weights: EyeWeights) -> EyeWeights {
         match self.vertices {
-            0 => weights.map(|it| it.times(1.0, photons)),
+            0 => weights.map(|it| it.times(1.0, self.receiver.area_m2)),
             _ => weights,
         }
     }
@@ -363,7 +361,7 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
     fn add_outside(&self, engine: &Engine<'_, '_, S>, found: &mut SectionSums<'_>) {
         let Some(outside) = &engine.context.lights.outside else { return };
         let (direction, position) = (self.direction, self.from.position());
-        let weights = self.straight(engine, self.weights);
+        let weights = self.straight(self.weights);
         let share = |asked_sr: f64, of_sun: bool| {
             let found_by = if of_sun { FoundBy::Photons } else { engine.sky_found_by };
             weights

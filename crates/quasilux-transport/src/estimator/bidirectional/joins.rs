@@ -21,7 +21,6 @@ use std::f64::consts::FRAC_1_PI;
 pub(super) struct Joiner<'r> {
     pub(super) receiver: &'r Receiver,
     pub(super) from: RayOrigin,
-    pub(super) n: DVec3,
     /// How far it is to the next vertex that is taken, in chances.
     pub(super) next: f64,
 }
@@ -39,7 +38,7 @@ impl Joiner<'_> {
         for vertex in vertices.take_while(|it| it.bounces < most) {
             let way = vertex.at.position - self.from.position();
             let square_m2 = way.length_squared();
-            let (front, behind) = (self.n.dot(way), -vertex.at.n.dot(way));
+            let (front, behind) = (self.receiver.n.dot(way), -vertex.at.n.dot(way));
             if front <= 0.0 {
                 continue;
             }
@@ -82,7 +81,7 @@ impl Join {
         }
         let scattered = bsdf.evaluate(*wo, wi, at.front, TransportMode::Importance);
         let square_m2 = distance_m * distance_m;
-        let cos = joiner.n.dot(direction);
+        let cos = joiner.receiver.n.dot(direction);
         let joins = engine.plan.joins(joiner.receiver, geometry_m2);
         let photons = engine.plan.photons(joiner.receiver, is_narrow(bsdf), *found_by);
         let to_eye = product(bsdf.survival_pdf_sr(*wo, wi) * cos / square_m2, photons / joins);

@@ -10,7 +10,9 @@ use crate::context::Context;
 use crate::spectrum::Spectrum;
 use crate::stats::targets::Target;
 use crate::world::grid_plane::GridPlane;
+use crate::world::{RayOrigin, World};
 use glam::DVec3;
+use serde::Serialize;
 use std::f64::consts::{PI, TAU};
 
 /// Light subpaths of an index: so many at least, and at most.
@@ -26,7 +28,7 @@ const SHARE_OF_SIZE: f64 = 1.0 / 64.0;
 const LOOKS: u32 = 64;
 
 /// Who finds the light of a kind of lights past narrow surfaces.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub(super) enum FoundBy {
     /// Eye paths, which run into it: no photon needs to blur it.
     EyePaths,
@@ -133,6 +135,19 @@ impl Receiver {
                 Self { target: *target, position, n, area_m2, radius_m, sure_m2 }
             }
         }
+    }
+
+    /// Where a ray leaves from that starts at it: in a cell at a place by two coordinates.
+    pub(super) fn origin<S: Spectrum>(
+        &self,
+        world: &World<S>,
+        u: impl FnOnce() -> [f64; 2],
+    ) -> RayOrigin {
+        let place = match self.target {
+            Target::Point { position, .. } => position,
+            Target::Cell { grid, cell } => grid.point_in_cell(cell, u()),
+        };
+        world.ray_origin_of_sensor(place, self.n)
     }
 
     /// The chance of a join, by its cosines over squared distance.

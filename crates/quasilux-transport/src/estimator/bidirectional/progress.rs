@@ -65,7 +65,6 @@ impl<S: Spectrum> BidirectionalEstimator<'_, S> {
         let most = (ROUND / self.paths_of_a_unit()).max(UNITS);
         let pieces = watch.pieces(self.done..row.len(), self.paths_of_a_unit());
         for round in pieces.flat_map(|piece| split(piece, most)) {
-            let before = (self.costs.photons, self.costs.paths.paths, self.costs.paths.rays);
             let found: Vec<UnitSums> = round
                 .clone()
                 .into_par_iter()
@@ -73,11 +72,7 @@ impl<S: Spectrum> BidirectionalEstimator<'_, S> {
                 .collect();
             self.add_units(&row, round.clone(), &found);
             self.done = round.end;
-            let [photons, paths, rays] = [
-                self.costs.photons - before.0,
-                self.costs.paths.paths - before.1,
-                self.costs.paths.rays - before.2,
-            ];
+            let BlockCounts { photons, paths, rays } = counts(&found);
             let goes_on = watch.tick(photons, paths, rays);
             if !goes_on || !watch.keep(|out| self.put_all(out)) {
                 return false;
@@ -115,14 +110,8 @@ impl<S: Spectrum> BidirectionalEstimator<'_, S> {
             if numbers.end > row.len() || !numbers.clone().zip(&found).all(fits) {
                 return Err(StateError::Unfit("the sums of a block"));
             }
-            let sum = |of: fn(&UnitSums) -> u64| found.iter().map(of).sum();
-            let counts = BlockCounts {
-                photons: sum(|it| it.photons),
-                paths: sum(|it| it.work.paths),
-                rays: sum(|it| it.work.rays),
-            };
             self.add_units(row, numbers, &found);
-            Ok(counts)
+            Ok(counts(&found))
         }))
     }
 
@@ -192,5 +181,15 @@ impl<S: Spectrum> BidirectionalEstimator<'_, S> {
     pub(super) fn take_in_own(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
         self.costs.merge_from(from)?;
         self.sums.as_mut_slice().merge_from(from)
+    }
+}
+
+/// What units cost.
+fn counts(found: &[UnitSums]) -> BlockCounts {
+    let sum = |of: fn(&UnitSums) -> u64| found.iter().map(of).sum();
+    BlockCounts {
+        photons: sum(|it| it.photons),
+        paths: sum(|it| it.work.paths),
+        rays: sum(|it| it.work.rays),
     }
 }

@@ -57,7 +57,7 @@ impl<'l, 'a> Sources<'l, 'a> {
 
     /// Those for each lumen of the emitting facets.
     pub(super) fn of_emitters_per_lm(&self) -> f64 {
-        self.per_lm(self.lights.pointlikes.len() + self.lights.area_luminaires.iter().count())
+        self.per_lm(self.lights.ways_numbers().start - 1)
     }
 
     /// Density in m^-2 sr^-1, across the line and over directions, of photons from outside along a
@@ -65,13 +65,12 @@ impl<'l, 'a> Sources<'l, 'a> {
     pub(super) fn pdf_line(&self, point: DVec3, direction: DVec3, of_sun: bool) -> f64 {
         let Some(ways) = self.lights.ways_in() else { return 0.0 };
         let line = Line { point, direction, of_sun };
-        let of = |number: usize| match self.lights.kind(number) {
-            LightKind::WayIn(way) => {
+        let numbers = self.lights.ways_numbers().enumerate();
+        numbers
+            .map(|(way, number)| {
                 self.share(number) * ways.photons.pdf_line(ways.outside, way, &line)
-            }
-            _ => 0.0,
-        };
-        (0..self.lights.len()).map(of).sum()
+            })
+            .sum()
     }
 
     /// A photon, by two coordinates and more for lights with an area.

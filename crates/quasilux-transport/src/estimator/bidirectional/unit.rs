@@ -15,7 +15,6 @@ use crate::path::sections::{WorkCounts, partner};
 use crate::path::wave::WAVE;
 use crate::spectrum::Spectrum;
 use crate::stats::tally::Quantum;
-use crate::stats::targets::Target;
 use crate::world::visibility::ShadowQueue;
 use quasilux_sampling::{PointSet, Sampler};
 use serde::{Deserialize, Serialize};
@@ -23,6 +22,9 @@ use std::ops::Range;
 
 /// Indices of a unit at most, and the first is a multiple.
 pub(super) const INDICES: u64 = 16;
+
+/// Targets whose shadow rays of joins are traced together.
+const ASKED_TOGETHER: usize = 64;
 
 /// Some targets with some indices in one replicate.
 pub(super) struct Unit<'t> {
@@ -68,9 +70,9 @@ impl Unit<'_> {
         });
         let mut work = WorkCounts { rays: light.rays, ..WorkCounts::default() };
         work.endless += light.endless;
-        work.rays += self.join(engine, &receivers, &light, quantum, &mut sums);
-        let of_paths = self.gather(engine, &receivers, &light, quantum, &mut sums);
-        work += of_paths;
+        let found = &mut SectionSums { sums: &mut sums, quantum };
+        work.rays += self.join(engine, &receivers, &light, found);
+        work += self.gather(engine, &receivers, &light, found);
         let photons = (self.indices.end - self.indices.start) * plan.subpaths;
         UnitSums { sums, work, photons }
     }
@@ -81,37 +83,27 @@ impl Unit<'_> {
         engine: &Engine<'_, '_, S>,
         receivers: &[&Receiver],
         light: &LightSubpaths<S>,
-        quantum: Quantum,
-        sums: &mut [TargetSums],
+        found: &mut SectionSums<'_>,
     ) -> u64 {
         let Engine { context, plan, .. } = engine;
         let world = &context.world;
         let mut shadows = ShadowQueue::default();
         shadows.max_bounces = context.max_bounces.unwrap_or(u32::MAX);
-        let mut asked = 0;
         for (section, (target, receiver)) in self.targets.iter().zip(receivers).enumerate() {
             let points = context.points(self.replicate, Stream::Joins(*target as u64));
-            let (position, n) = (receiver.position, receiver.n);
-            let from = match receiver.target {
-                Target::Point { position, normal } => world.ray_origin_of_sensor(position, normal),
-                Target::Cell { .. } => world.ray_origin_of_sensor(position, n),
-            };
-            let mut joiner = Joiner { receiver, from, n, next: 0.0 };
             for (place, index) in (0..).zip(self.indices.clone()) {
-                if let Target::Cell { grid, cell } = receiver.target {
-                    let u = [0, 1].map(|dimension| points.coordinate(index, dimension));
-                    joiner.from = world.ray_origin_of_sensor(grid.point_in_cell(cell, u), n);
-                }
-                joiner.next = points.coordinate(index, 2);
+                let u = || [0, 1].map(|dimension| points.coordinate(index, dimension));
+                let from = receiver.origin(world, u);
+                let mut joiner = Joiner { receiver, from, next: points.coordinate(index, 2) };
                 let first = (place * plan.subpaths + plan.first_joined(*target, index)) as usize;
                 for subpath in first..first + plan.joined as usize {
                     joiner.join(engine, section as u32, light.vertices_of(subpath), &mut shadows);
                 }
             }
-            asked += 1;
-            if asked % 64 == 0 || asked == receivers.len() {
+            let asked = section + 1;
+            if asked % ASKED_TOGETHER == 0 || asked == receivers.len() {
                 shadows.answer(world, |who, light: S, bounces| {
-                    sums[who as usize].add(bounces, light.luminance(), quantum);
+                    found.add(who as usize, bounces, light);
                 });
             }
         }
@@ -124,12 +116,10 @@ impl Unit<'_> {
         engine: &Engine<'_, '_, S>,
         receivers: &[&Receiver],
         light: &LightSubpaths<S>,
-        quantum: Quantum,
-        sums: &mut [TargetSums],
+        found: &mut SectionSums<'_>,
     ) -> WorkCounts {
         let Engine { context, plan, .. } = engine;
         let mut paths = EyePaths::default();
-        let mut found = SectionSums { sums, quantum };
         let at_once = (WAVE / (self.indices.end - self.indices.start)).max(1) as usize;
         for first in (0..self.targets.len()).step_by(at_once) {
             let sections = first..(first + at_once).min(self.targets.len());
@@ -151,7 +141,7 @@ impl Unit<'_> {
                     }
                 })
             });
-            paths.trace(engine, starts, &mut found);
+            paths.trace(engine, starts, found);
         }
         paths.work
     }
