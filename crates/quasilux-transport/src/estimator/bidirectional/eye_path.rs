@@ -3,11 +3,12 @@
 
 mod asking;
 
+use super::departure::Departure;
 use super::engine::Engine;
 use super::light_subpath::{LightSubpaths, is_narrow};
 use super::plan::{FoundBy, Receiver};
 use super::sums::TargetSums;
-use crate::bsdf::TransportMode;
+use crate::bsdf::{Bsdf, BsdfSample, TransportMode};
 use crate::cutoff::MAX_EVENTS;
 use crate::lights::{Asking, ChoiceWork, EmitterPlace};
 use crate::path::sections::WorkCounts;
@@ -258,7 +259,7 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
         self.weights = here.map(|it| it.scattered(cos, pdfs_sr[0], pdfs_sr[1]));
         self.distance_m = 0.0;
         self.asked_from = Some(Asking::at(vertex));
-        self.go_on(engine, at, &frame, next.wi, next.weight)
+        self.go_on(engine, at, &frame, &next)
     }
 
     /// Goes on from a mirror, from glass, or through a pane.
@@ -282,7 +283,7 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
             self.vertices += 1;
             self.asked_from = None;
         }
-        self.go_on(engine, at, &frame, next.wi, next.weight)
+        self.go_on(engine, at, &frame, &next)
     }
 
     /// What it weighs at its first surface, where joins and photons take part; elsewhere as it is.
@@ -290,7 +291,7 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
         &self,
         engine: &Engine<'_, '_, S>,
         arrived: EyeWeights,
-        bsdf: &crate::bsdf::Bsdf<S>,
+        bsdf: &Bsdf<S>,
         geometry_m2: f64,
     ) -> EyeWeights {
         if self.vertices > 0 {
@@ -304,26 +305,20 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
         }))
     }
 
-    /// Survives as its weight says, and leaves.
+    /// Leaves a surface, if it survives.
     fn go_on(
         &mut self,
         engine: &Engine<'_, '_, S>,
         at: &Interaction,
         frame: &Frame,
-        wi: DVec3,
-        weight: S,
+        next: &BsdfSample<S>,
     ) -> bool {
         let world = &engine.context.world;
-        let survival = weight.max_channel().min(1.0);
-        // Not where it is no number.
-        let survives = survival > 0.0 && self.sampler.choose_bool(survival);
-        if !survives {
-            return false;
-        }
-        self.beta = self.beta * weight * survival.recip();
+        let departure = Departure::survive(world, at, frame, next, &mut self.sampler);
+        let Some(Departure { from, direction, factor }) = departure else { return false };
+        (self.from, self.direction) = (from, direction);
+        self.beta = self.beta * factor;
         self.bounces += 1;
-        self.from = if wi.z > 0.0 { world.ray_origin(at) } else { world.ray_origin_behind(at) };
-        self.direction = frame.to_world(wi);
         true
     }
 

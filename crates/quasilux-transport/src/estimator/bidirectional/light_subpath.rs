@@ -3,10 +3,11 @@
 //!
 //! Flat panes that let light straight through are no vertices: they lie on the edges between them.
 
+use super::departure::Departure;
 use super::engine::Engine;
 use super::plan::FoundBy;
 use super::sources::Photon;
-use crate::bsdf::{Bsdf, TransportMode};
+use crate::bsdf::{Bsdf, BsdfSample, TransportMode};
 use crate::cutoff::MAX_EVENTS;
 use crate::lights::images::LightPathClass;
 use crate::lights::{Asking, EmitterPlace, LightKind, OutsideLight};
@@ -142,6 +143,11 @@ impl<S: Spectrum> LightSubpaths<S> {
                 at.is_some_and(|at| subpath.arrive(engine, at, &mut found))
             });
         }
+        Self { rays, endless: travelling.len() as u64, ..Self::by_subpath(found, count) }
+    }
+
+    /// Vertices of so many subpaths, in the order in which each met its own.
+    fn by_subpath(found: Vec<FoundVertex<S>>, count: usize) -> Self {
         let numbers: Vec<usize> = found.iter().map(|it| it.subpath).collect();
         let vertices = found.into_iter().map(|it| it.vertex).collect();
         let mut own = vec![0..0; count];
@@ -155,7 +161,7 @@ impl<S: Spectrum> LightSubpaths<S> {
             order[own[number].end] = place as u32;
             own[number].end += 1;
         }
-        Self { vertices, order, own, rays, endless: travelling.len() as u64 }
+        Self { vertices, order, own, rays: 0, endless: 0 }
     }
 }
 
@@ -219,7 +225,7 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
                 self.leg = Leg { weights, distance_m: 0.0, last, class: self.leg.class };
             }
             self.leg.class = self.leg.class.after(&context.images, bsdf, at.facet, next.wi.z > 0.0);
-            return self.go_on(engine, at, &frame, next.wi, next.weight);
+            return self.go_on(engine, at, &frame, &next);
         }
         let weights = self.weights_at(engine, at, bsdf, wo.z);
         let (flux_lm, bounces) = (self.flux_lm, self.bounces);
@@ -232,27 +238,23 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
         let weights = weights.scattered(cos, pdfs_sr[0], pdfs_sr[1]);
         let last = LastVertex::Surface { cos, is_narrow: is_narrow(bsdf) };
         self.leg = Leg { weights, distance_m: 0.0, last, class: LightPathClass::Found };
-        self.go_on(engine, at, &frame, next.wi, next.weight)
+        self.go_on(engine, at, &frame, &next)
     }
 
-    /// Survives as its weight says, and leaves.
+    /// Leaves a surface, if it survives.
     fn go_on(
         &mut self,
         engine: &Engine<'_, '_, S>,
         at: &Interaction,
         frame: &Frame,
-        wi: DVec3,
-        weight: S,
+        next: &BsdfSample<S>,
     ) -> bool {
         let world = &engine.context.world;
-        let survival = weight.max_channel().min(1.0);
-        if !self.sampler.choose_bool(survival) {
-            return false;
-        }
-        self.flux_lm = self.flux_lm * weight * survival.recip();
+        let departure = Departure::survive(world, at, frame, next, &mut self.sampler);
+        let Some(Departure { from, direction, factor }) = departure else { return false };
+        (self.from, self.direction) = (from, direction);
+        self.flux_lm = self.flux_lm * factor;
         self.bounces += 1;
-        self.from = if wi.z > 0.0 { world.ray_origin(at) } else { world.ray_origin_behind(at) };
-        self.direction = frame.to_world(wi);
         true
     }
 
@@ -264,23 +266,31 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
         bsdf: &Bsdf<S>,
         cos: f64,
     ) -> SubpathWeights {
-        let takes_both_sides = bsdf.transmits();
+        let side = (!bsdf.transmits()).then_some(at.n);
         let arrival = Arrival {
-            place: Asking {
-                position: at.position,
-                side: (!takes_both_sides).then_some(at.n),
-                own: Some(at.facet),
-            },
+            place: Asking { position: at.position, side, own: Some(at.facet) },
             n: at.n,
-            distance_m: self.leg.distance_m + at.distance_m,
+            along_m: at.distance_m,
             direction: self.direction,
             cos,
-            is_cell: false,
+            asks: if bsdf.is_specular() { Asks::Nothing } else { Asks::One },
         };
-        match self.leg.last {
-            LastVertex::Light if bsdf.is_specular() => arrival.on_mirror(engine, &self.photon),
-            LastVertex::Light => arrival.of_photon(engine, &self.photon),
-            LastVertex::Surface { .. } => self.leg.weights.arrived(arrival.distance_m, cos),
+        self.leg.weights_at(engine, &self.photon, &arrival)
+    }
+}
+
+impl Leg {
+    /// What its subpath weighs where it ends.
+    fn weights_at<S: Spectrum>(
+        &self,
+        engine: &Engine<'_, '_, S>,
+        photon: &Photon,
+        arrival: &Arrival,
+    ) -> SubpathWeights {
+        let distance_m = self.distance_m + arrival.along_m;
+        match self.last {
+            LastVertex::Light => arrival.of_photon(engine, photon, distance_m),
+            LastVertex::Surface { .. } => self.weights.arrived(distance_m, arrival.cos),
         }
     }
 }
@@ -310,48 +320,65 @@ impl<S: Spectrum> Passing<'_, S> {
         along_m: f64,
         is_cell: bool,
     ) -> SubpathWeights {
-        let cos = -n.dot(self.flight.direction);
-        let distance_m = self.distance_m(along_m);
-        match self.leg.last {
-            LastVertex::Light => {
-                let place = Asking { position, side: Some(n), own: None };
-                let direction = self.flight.direction;
-                let arrival = Arrival { place, n, distance_m, direction, cos, is_cell };
-                arrival.of_photon(engine, self.photon)
-            }
-            LastVertex::Surface { .. } => self.leg.weights.arrived(distance_m, cos),
-        }
+        let direction = self.flight.direction;
+        let arrival = Arrival {
+            place: Asking { position, side: Some(n), own: None },
+            n,
+            along_m,
+            direction,
+            cos: -n.dot(direction),
+            asks: if is_cell { Asks::AllPointlikes } else { Asks::One },
+        };
+        self.leg.weights_at(engine, self.photon, &arrival)
     }
 }
 
-/// Where a photon lands straight from its light, panes between or not.
+/// Where a subpath arrives.
 struct Arrival {
     place: Asking,
     n: DVec3,
-    distance_m: f64,
+    /// Of the flight, from the last vertex or pane.
+    along_m: f64,
     direction: DVec3,
     cos: f64,
-    /// In a cell, where all lights without extent are asked.
-    is_cell: bool,
+    asks: Asks,
+}
+
+/// Which lights a place asks for light.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Asks {
+    /// A specular surface.
+    Nothing,
+    /// One of each kind.
+    One,
+    /// A cell: every light without extent.
+    AllPointlikes,
 }
 
 impl Arrival {
-    /// On a surface that asks for light: the densities of doing so, and of running into the light,
-    /// over that of the photon.
+    /// Straight from the light of a photon, panes between or not: the densities of asking for its
+    /// light here, and of running into it, over that of the photon.
     fn of_photon<S: Spectrum>(
         &self,
         engine: &Engine<'_, '_, S>,
         photon: &Photon,
+        distance_m: f64,
     ) -> SubpathWeights {
-        let Self { place, n, distance_m, direction, cos, is_cell } = *self;
+        let Self { place, n, direction, cos, asks, .. } = *self;
         let Engine { context, sources, .. } = engine;
-        let lights = &context.lights;
-        let (position, both) = (place.position, place.side.is_none());
+        let (lights, position) = (&context.lights, place.position);
+        let asks_for = asks != Asks::Nothing;
         match photon.kind {
+            LightKind::Pointlike(_) | LightKind::Luminaire(_) if !asks_for => {
+                SubpathWeights::default()
+            }
             LightKind::Pointlike(light) => {
+                let both = place.side.is_none();
                 let lx = lights.pointlikes.illuminance_lx(light, position, n, both);
-                let choice =
-                    if is_cell { 1.0 } else { lights.pointlikes.probability(light, place) };
+                let choice = match asks {
+                    Asks::AllPointlikes => 1.0,
+                    Asks::Nothing | Asks::One => lights.pointlikes.probability(light, place),
+                };
                 SubpathWeights::new(choice / (sources.per_lm(photon.number) * lx), 0.0)
             }
             LightKind::Luminaire(light) => {
@@ -366,10 +393,8 @@ impl Arrival {
             LightKind::Emitters => {
                 let emission = Emission::new(engine, photon);
                 let asked = EmitterPlace { facet: emission.facet, position: emission.position };
-                let pdf_m2 = lights
-                    .emitters
-                    .as_ref()
-                    .map_or(0.0, |emitters| emitters.pdf_m2(&context.world, place, asked));
+                let emitters = lights.emitters.as_ref().filter(|_| asks_for);
+                let pdf_m2 = emitters.map_or(0.0, |it| it.pdf_m2(&context.world, place, asked));
                 let square_m2 = distance_m * distance_m;
                 let vcm = product(pdf_m2, square_m2 / (emission.per_m2_sr * cos));
                 SubpathWeights::new(vcm, emission.cos / emission.per_m2_sr / cos)
@@ -377,35 +402,12 @@ impl Arrival {
             LightKind::WayIn(_) => {
                 let of_sun = engine.is_of_sun(photon);
                 let per_m2 = sources.pdf_line(position, direction, of_sun) * cos;
-                let asked_sr = lights.outside.as_ref().map_or(0.0, |outside: &OutsideLight<'_>| {
-                    if of_sun {
-                        outside.sun_pdf_sr(-direction)
-                    } else {
-                        outside.pdf_sr(place, -direction)
-                    }
+                let outside = lights.outside.as_ref().filter(|_| asks_for);
+                let asked_sr = outside.map_or(0.0, |outside: &OutsideLight<'_>| match of_sun {
+                    true => outside.sun_pdf_sr(-direction),
+                    false => outside.pdf_sr(place, -direction),
                 });
                 SubpathWeights::new(product(asked_sr, per_m2.recip()), per_m2.recip())
-            }
-        }
-    }
-
-    /// On a surface that asks for nothing.
-    fn on_mirror<S: Spectrum>(
-        &self,
-        engine: &Engine<'_, '_, S>,
-        photon: &Photon,
-    ) -> SubpathWeights {
-        match photon.kind {
-            LightKind::Pointlike(_) | LightKind::Luminaire(_) => SubpathWeights::default(),
-            LightKind::Emitters => {
-                let emission = Emission::new(engine, photon);
-                SubpathWeights::new(0.0, emission.cos / emission.per_m2_sr / self.cos)
-            }
-            LightKind::WayIn(_) => {
-                let of_sun = engine.is_of_sun(photon);
-                let per_m2_sr =
-                    engine.sources.pdf_line(self.place.position, self.direction, of_sun);
-                SubpathWeights::new(0.0, (per_m2_sr * self.cos).recip())
             }
         }
     }

@@ -53,6 +53,7 @@
 mod boxes;
 mod caps;
 mod counters;
+mod departure;
 mod engine;
 mod estimator;
 mod eye_path;
