@@ -187,7 +187,7 @@ fn what_came_through_no_hole_is_within_the_bound() {
 /// With many photons the same rooms have their closed form.
 #[test]
 fn what_comes_through_a_hole_is_spread_over_the_walls() {
-    for (reflectance, hole_m) in [(0.5, 0.1), (0.9, 0.05)] {
+    for (reflectance, hole_m) in [(0.5, 0.1), (0.8, 0.1)] {
         let (scene, mean_lx) = white_room_with_a_hole(reflectance, hole_m);
         let estimates = run(&scene, 1 << 11);
         let walls = (0..6).map(|wall| estimates.point_intervals(wall)[0]);
@@ -197,6 +197,6 @@ fn what_comes_through_a_hole_is_spread_over_the_walls() {
         // Light that leaves through the hole, and cosines at its edges.
         let allowed = 1.5 * width + 0.01 * mean_lx;
         assert!((found - mean_lx).abs() < allowed, "{found} +- {width}, not {mean_lx}");
-        assert!(width < 0.1 * mean_lx);
+        assert!(width < 0.05 * mean_lx);
     }
 }

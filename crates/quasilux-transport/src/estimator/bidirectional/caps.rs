@@ -9,8 +9,8 @@ use super::engine::Engine;
 use super::intensities::IntensityBound;
 use super::peaks::Peak;
 use super::plan::{FoundBy, Receiver};
+use super::sources::{PhotonFluxes, SKY_MARGIN};
 use super::supremum::{Bounded, SeenPart, supremum, supremum_over};
-use crate::lights::LightKind;
 use crate::spectrum::Spectrum;
 use crate::stats::targets::Target;
 use crate::stats::unseen::UNSEEN_CONFIDENCE;
@@ -23,8 +23,6 @@ use std::f64::consts::{FRAC_1_PI, PI};
 /// A choice among lights in proportion to what they give takes one with no less than this part of
 /// its share ([`crate::lights::PointLikes::choose`]).
 const CHOICE: f64 = 0.9;
-/// Luminances of the sky are looked up in the middle of cells.
-const SKY_MARGIN: f64 = 1.25;
 
 /// Bounds of all targets.
 pub(super) struct Caps {
@@ -138,9 +136,6 @@ impl<S: Spectrum> Class<'_, '_, '_, S> {
         let mut class = |counts: f64, samples: f64| {
             largest = largest.max(if counts > 0.0 { samples / counts } else { f64::INFINITY });
         };
-        if kind.flux_lm == 0.0 {
-            return 0.0;
-        }
         let straight_lx = match receiver.target {
             Target::Cell { .. } => kind.straight_lx.or_else(|| Some(surfaces.on_cell(receiver))),
             Target::Point { .. } => kind.straight_lx,
@@ -173,7 +168,7 @@ impl<S: Spectrum> Class<'_, '_, '_, S> {
 fn kinds<S: Spectrum>(engine: &Engine<'_, '_, S>, surfaces: &Surfaces<'_, S>) -> Vec<Kind> {
     let context = engine.context;
     let lights = &context.lights;
-    let [of_points, of_luminaires, of_emitters, of_sky, of_sun] = fluxes_lm(engine);
+    let PhotonFluxes { pointlikes_lm, luminaires_lm, emitters_lm, sky_lm, sun_lm } = engine.fluxes;
     let largest_lx = lights.emitters.as_ref().map_or(0.0, |emitters| emitters.largest_lx());
     let outside = lights.outside.as_ref();
     let sky_lx = outside.map_or(0.0, |outside| PI * SKY_MARGIN * outside.brightest_cd_m2());
@@ -182,7 +177,7 @@ fn kinds<S: Spectrum>(engine: &Engine<'_, '_, S>, surfaces: &Surfaces<'_, S>) ->
     let images_hide = context.hides.is_some();
     let all = [
         Kind {
-            flux_lm: of_points,
+            flux_lm: pointlikes_lm,
             eye_lx: surfaces.lit_by_pointlikes(engine),
             met_lx: never,
             straight_lx: None,
@@ -190,7 +185,7 @@ fn kinds<S: Spectrum>(engine: &Engine<'_, '_, S>, surfaces: &Surfaces<'_, S>) ->
             found_by: FoundBy::Photons,
         },
         Kind {
-            flux_lm: of_luminaires,
+            flux_lm: luminaires_lm,
             eye_lx: never,
             met_lx: never,
             straight_lx: Some(never),
@@ -198,7 +193,7 @@ fn kinds<S: Spectrum>(engine: &Engine<'_, '_, S>, surfaces: &Surfaces<'_, S>) ->
             found_by: FoundBy::Photons,
         },
         Kind {
-            flux_lm: of_emitters,
+            flux_lm: emitters_lm,
             eye_lx: largest_lx,
             met_lx: largest_lx,
             straight_lx: Some(largest_lx),
@@ -206,7 +201,7 @@ fn kinds<S: Spectrum>(engine: &Engine<'_, '_, S>, surfaces: &Surfaces<'_, S>) ->
             found_by: engine.emitters_found_by,
         },
         Kind {
-            flux_lm: of_sky,
+            flux_lm: sky_lm,
             eye_lx: sky_lx,
             met_lx: sky_lx,
             straight_lx: Some(sky_lx),
@@ -214,7 +209,7 @@ fn kinds<S: Spectrum>(engine: &Engine<'_, '_, S>, surfaces: &Surfaces<'_, S>) ->
             found_by: engine.sky_found_by,
         },
         Kind {
-            flux_lm: of_sun,
+            flux_lm: sun_lm,
             eye_lx: PI * surfaces.peaks.largest_sr() * sun_lx,
             met_lx: never,
             straight_lx: Some(sun_lx),
@@ -223,32 +218,6 @@ fn kinds<S: Spectrum>(engine: &Engine<'_, '_, S>, surfaces: &Surfaces<'_, S>) ->
         },
     ];
     all.into_iter().filter(|kind| kind.flux_lm > 0.0).collect()
-}
-
-/// The most that a photon of each kind stands for, in lm, in the order of [`kinds`].
-fn fluxes_lm<S: Spectrum>(engine: &Engine<'_, '_, S>) -> [f64; 5] {
-    let lights = &engine.context.lights;
-    let mut fluxes_lm = [0.0_f64; 5];
-    for number in 0..lights.len() {
-        let share = engine.sources.share(number);
-        let (kind, flux_lm) = match lights.kind(number) {
-            LightKind::Pointlike(_) => (0, lights.flux_of_lm(number)),
-            LightKind::Luminaire(_) => (1, lights.flux_of_lm(number)),
-            LightKind::Emitters => (2, lights.flux_of_lm(number)),
-            LightKind::WayIn(way) => {
-                let most =
-                    lights.ways_in().map_or(0.0, |ways| ways.photons.most_lm(ways.outside, way));
-                match lights.ways_in() {
-                    Some(ways) if ways.photons.is_sun(way) => (4, most),
-                    _ => (3, SKY_MARGIN * most),
-                }
-            }
-        };
-        if flux_lm > 0.0 {
-            fluxes_lm[kind] = fluxes_lm[kind].max(flux_lm / share);
-        }
-    }
-    fluxes_lm
 }
 
 /// Of each material.

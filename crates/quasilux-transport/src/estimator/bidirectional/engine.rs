@@ -1,8 +1,8 @@
 //! What all subpaths need: the scene made ready, the shares of its lights, and the numbers of
 //! samples of each technique.
 
-use super::plan::{FoundBy, Plan};
-use super::sources::{Photon, Sources};
+use super::plan::{FoundBy, Plan, largest_disc_m2};
+use super::sources::{Photon, PhotonFluxes, Sources};
 use crate::context::Context;
 use crate::lights::LightKind;
 use crate::spectrum::Spectrum;
@@ -13,6 +13,7 @@ use std::f64::consts::PI;
 pub(super) struct Engine<'l, 'a, S> {
     pub(super) context: &'l Context<'a, S>,
     pub(super) sources: Sources<'l, 'a>,
+    pub(super) fluxes: PhotonFluxes,
     pub(super) plan: Plan,
     /// Who finds emitting facets past narrow surfaces, and the sky.
     pub(super) emitters_found_by: FoundBy,
@@ -23,20 +24,16 @@ impl<'l, 'a, S: Spectrum> Engine<'l, 'a, S> {
     pub(super) fn new(context: &'l Context<'a, S>, targets: &[Target]) -> Self {
         let lights = &context.lights;
         let sources = Sources::new(lights);
-        let most_lm = |kind: fn(&LightKind) -> bool| {
-            let numbers = (0..lights.len()).filter(|number| kind(&lights.kind(*number)));
-            let flux_lm = numbers.map(|it| lights.flux_of_lm(it) / sources.share(it));
-            flux_lm.filter(|lm| lm.is_finite()).fold(0.0, f64::max)
-        };
         let emitters_lx = lights.emitters.as_ref().map_or(0.0, |it| it.largest_lx());
         let sky_lx = lights.outside.as_ref().map_or(0.0, |it| PI * it.brightest_cd_m2());
-        let emitters_lm = most_lm(|kind| *kind == LightKind::Emitters);
-        let outside_lm = most_lm(|kind| matches!(kind, LightKind::WayIn(_)));
+        let fluxes = sources.photon_fluxes();
+        let area_m2 = largest_disc_m2(&context.world);
         Self {
             context,
             plan: Plan::new(context, targets),
-            emitters_found_by: FoundBy::new(emitters_lx, emitters_lm),
-            sky_found_by: FoundBy::new(sky_lx, outside_lm),
+            emitters_found_by: FoundBy::new(emitters_lx, fluxes.emitters_lm / area_m2),
+            sky_found_by: FoundBy::new(sky_lx, fluxes.sky_lm / area_m2),
+            fluxes,
             sources,
         }
     }

@@ -38,12 +38,21 @@ pub(super) enum FoundBy {
 impl FoundBy {
     pub(super) const BOTH: [Self; 2] = [Self::EyePaths, Self::Photons];
 
-    /// Where a path that runs into the light finds `met_lx` at most, and a photon stands for this
-    /// flux.
-    pub(super) fn new(met_lx: f64, flux_lm: f64) -> Self {
-        let on_a_disc_lx = flux_lm / (PI * RADIUS_M * RADIUS_M);
+    /// Where a path that runs into the light finds `met_lx` at most, and a photon gives this much to
+    /// a disc.
+    pub(super) fn new(met_lx: f64, on_a_disc_lx: f64) -> Self {
         if met_lx <= on_a_disc_lx { Self::EyePaths } else { Self::Photons }
     }
+}
+
+/// The area in m^2 of a disc in the open.
+pub(super) fn largest_disc_m2<S: Spectrum>(world: &World<S>) -> f64 {
+    let radius_m = largest_radius_m(world);
+    PI * radius_m * radius_m
+}
+
+fn largest_radius_m<S: Spectrum>(world: &World<S>) -> f64 {
+    RADIUS_M.min(SHARE_OF_SIZE * world.size_m())
 }
 
 /// Numbers of samples for each index.
@@ -114,7 +123,6 @@ impl Receiver {
         match *target {
             Target::Point { position, normal: n } => {
                 let from = world.ray_origin_of_sensor(position, n);
-                let most_m = RADIUS_M.min(SHARE_OF_SIZE * world.size_m());
                 let across = n.any_orthonormal_vector();
                 let beside = n.cross(across);
                 let free_m = (0..LOOKS).map(|look| {
@@ -122,7 +130,7 @@ impl Receiver {
                     let hit = world.trace(from, across * cos + beside * sin);
                     hit.map_or(f64::INFINITY, |at| at.distance_m)
                 });
-                let radius_m = free_m.fold(most_m, f64::min).max(world.hair_m());
+                let radius_m = free_m.fold(largest_radius_m(world), f64::min).max(world.hair_m());
                 let area_m2 = PI * radius_m * radius_m;
                 let (target, radius_m) = (*target, Some(radius_m));
                 Self { target, position: from.position(), n, area_m2, radius_m, sure_m2 }

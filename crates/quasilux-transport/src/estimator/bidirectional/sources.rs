@@ -17,6 +17,19 @@ pub(super) struct Sources<'l, 'a> {
     choice: Option<Discrete>,
 }
 
+/// Luminances of the sky are looked up in the middle of cells.
+pub(super) const SKY_MARGIN: f64 = 1.25;
+
+/// The most that a photon of each kind of lights stands for, were it the only one, in lm.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct PhotonFluxes {
+    pub(super) pointlikes_lm: f64,
+    pub(super) luminaires_lm: f64,
+    pub(super) emitters_lm: f64,
+    pub(super) sky_lm: f64,
+    pub(super) sun_lm: f64,
+}
+
 /// A photon that has just left its light.
 pub(super) struct Photon {
     pub(super) kind: LightKind,
@@ -43,6 +56,31 @@ impl<'l, 'a> Sources<'l, 'a> {
     /// The share of the photons of one light.
     pub(super) fn share(&self, number: usize) -> f64 {
         self.choice.as_ref().map_or(0.0, |choice| choice.pdf(number))
+    }
+
+    /// What photons stand for.
+    pub(super) fn photon_fluxes(&self) -> PhotonFluxes {
+        let mut most = PhotonFluxes::default();
+        for number in 0..self.lights.len() {
+            let lamp_lm = self.lights.flux_of_lm(number);
+            let (of_kind, flux_lm) = match (self.lights.kind(number), self.lights.ways_in()) {
+                (LightKind::Pointlike(_), _) => (&mut most.pointlikes_lm, lamp_lm),
+                (LightKind::Luminaire(_), _) => (&mut most.luminaires_lm, lamp_lm),
+                (LightKind::Emitters, _) => (&mut most.emitters_lm, lamp_lm),
+                (LightKind::WayIn(way), Some(ways)) => {
+                    let flux_lm = ways.photons.most_lm(ways.outside, way);
+                    match ways.photons.is_sun(way) {
+                        true => (&mut most.sun_lm, flux_lm),
+                        false => (&mut most.sky_lm, SKY_MARGIN * flux_lm),
+                    }
+                }
+                (LightKind::WayIn(_), None) => continue,
+            };
+            if flux_lm > 0.0 {
+                *of_kind = of_kind.max(flux_lm / self.share(number));
+            }
+        }
+        most
     }
 
     /// Photons for each lumen of a lamp: its share over its flux.
