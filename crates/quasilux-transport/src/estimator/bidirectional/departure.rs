@@ -1,5 +1,5 @@
-//! How subpaths leave a surface, eye paths and light subpaths alike: whether they survive, what they
-//! carry, and where they go.
+//! How subpaths leave a surface, eye paths and light subpaths alike: whether they survive, what
+//! they carry, and where they go.
 
 use crate::bsdf::BsdfSample;
 use crate::spectrum::Spectrum;

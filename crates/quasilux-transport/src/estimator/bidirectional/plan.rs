@@ -38,8 +38,8 @@ pub(super) enum FoundBy {
 impl FoundBy {
     pub(super) const BOTH: [Self; 2] = [Self::EyePaths, Self::Photons];
 
-    /// Where a path that runs into the light finds `met_lx` at most, and a photon gives this much to
-    /// a disc.
+    /// Where a path that runs into the light finds `met_lx` at most, and a photon gives this much
+    /// to a disc.
     pub(super) fn new(met_lx: f64, on_a_disc_lx: f64) -> Self {
         if met_lx <= on_a_disc_lx { Self::EyePaths } else { Self::Photons }
     }
