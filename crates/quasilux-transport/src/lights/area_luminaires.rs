@@ -172,7 +172,8 @@ impl<'a> AreaLuminaires<'a> {
         position: DVec3,
         cos: impl FnOnce(DVec3) -> f64,
     ) -> Option<PlaceIncidence> {
-        self.lights[number].incidence(place, position, cos)
+        let light = &self.lights[number];
+        light.incidence(place, position, light.centre_direction(position), cos)
     }
 
     /// How many have a shape that encloses a volume which surfaces pass through: part of their
@@ -214,10 +215,12 @@ impl AreaLuminaire<'_> {
         from_centre.normalize_or(DVec3::NEG_Z)
     }
 
+    /// Of a place drawn from the silhouette along `centre_direction`.
     fn incidence(
         &self,
         place: &SurfacePoint,
         position: DVec3,
+        centre_direction: DVec3,
         cos: impl FnOnce(DVec3) -> f64,
     ) -> Option<PlaceIncidence> {
         let Luminaire { shape, world_from_luminaire, .. } = self.luminaire;
@@ -226,7 +229,7 @@ impl AreaLuminaire<'_> {
         let direction = toward / distance_m;
         let cos = cos(direction);
         let share = shape.pdf_silhouette(world_from_luminaire.transpose() * -direction, place);
-        let drawn = shape.pdf_silhouette(self.centre_direction(position), place);
+        let drawn = shape.pdf_silhouette(centre_direction, place);
         if cos <= 0.0 || share <= 0.0 || drawn <= 0.0 {
             return None;
         }
@@ -242,9 +245,11 @@ impl AreaLuminaire<'_> {
         u: [f64; 2],
     ) -> Option<LightSample<S>> {
         let position = vertex.position();
-        let place = self.luminaire.shape.sample_silhouette(self.centre_direction(position), u);
+        let centre_direction = self.centre_direction(position);
+        let place = self.luminaire.shape.sample_silhouette(centre_direction, u);
+        let cos = |direction| vertex.cos(direction);
         let PlaceIncidence { direction, distance_m, illuminance_lx } =
-            self.incidence(&place, position, |direction| vertex.cos(direction))?;
+            self.incidence(&place, position, centre_direction, cos)?;
         let light = vertex.weight(direction) * illuminance_lx;
         LightSample::unless_dark(direction, distance_m, light, illuminance_lx)
     }
