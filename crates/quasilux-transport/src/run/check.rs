@@ -46,7 +46,7 @@ pub enum CheckError {
         estimator: &'static str,
     },
     /// Other estimators have no use for such photons.
-    #[error("connections = \"on\" is for the estimator \"bidirectional\", not for \"{estimator}\"")]
+    #[error("connections = \"on\" is for the estimator \"selected\", not for \"{estimator}\"")]
     NothingToJoin {
         /// Name of the estimator.
         estimator: &'static str,

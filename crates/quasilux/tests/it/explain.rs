@@ -88,7 +88,7 @@ fn photons_beside_paths_are_explained() {
     let folder = Folder::new("explain_beside");
     write_room(&folder, "room", &Look::GREY);
     let text = folder.read("room.toml");
-    let connected = "rel_tol = 0.1\nestimator = \"bidirectional\"\nconnections = \"on\"";
+    let connected = "rel_tol = 0.1\nestimator = \"selected\"\nconnections = \"on\"";
     folder.write("room.toml", text.replace("rel_tol = 0.1", connected));
     let run = folder.quasilux(&["run", "room.toml", "--explain", "--json"]);
     assert_eq!(run.code, Some(0), "{}", run.stderr);
