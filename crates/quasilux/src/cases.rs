@@ -4,6 +4,7 @@ use crate::exit::CliError;
 use crate::input;
 use quasilux_report::{Figure, Report, SensorReport};
 use serde::Deserialize;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// One case.
@@ -17,6 +18,9 @@ pub(crate) struct Case {
     /// The project's own where empty.
     #[serde(default)]
     estimators: Vec<String>,
+    /// The tolerance of the project, in place of its own, by the estimator.
+    #[serde(default)]
+    pub(crate) rel_tol: BTreeMap<String, f64>,
     pub(crate) expect: Vec<Expectation>,
 }
 
@@ -78,6 +82,9 @@ impl Case {
         let mut case: Self = toml::from_str(&text).map_err(|error| refuse(&error))?;
         if case.expect.is_empty() {
             return Err(refuse(&"a case expects at least one value"));
+        }
+        if let Some(name) = case.rel_tol.keys().find(|name| !case.estimators.contains(name)) {
+            return Err(refuse(&format!("rel_tol of {name:?}, which is none of the estimators")));
         }
         case.project = path.parent().unwrap_or(Path::new("")).join(case.project);
         Ok(case)

@@ -23,6 +23,8 @@ pub(super) struct Material {
 /// Half-width over value, and of what.
 pub(super) enum Tolerance {
     Points(f64),
+    /// Of points some of which no light reaches.
+    DarkPoints(f64),
     Summary(f64),
 }
 
@@ -106,6 +108,7 @@ impl Project {
         }
         let tolerance = match self.tolerance {
             Tolerance::Points(rel_tol) => format!("rel_tol = {rel_tol}\n"),
+            Tolerance::DarkPoints(rel_tol) => format!("rel_tol = {rel_tol}\nabs_tol = 0.001\n"),
             Tolerance::Summary(rel_tol) => {
                 format!("rel_tol = {rel_tol}\ntolerance_on = \"summary\"\n")
             }
@@ -139,10 +142,13 @@ impl Sensor {
 impl Case {
     pub(super) fn text(&self) -> String {
         let Self { name, source, project, estimators, .. } = self;
-        let head = format!(
+        let mut head = format!(
             "# Written by `cargo xtask cie171`.\nname = \"{name}\"\nsource = \"{source}\"\n\
              project = \"../scenes/{project}.toml\"\nestimators = {estimators:?}\n"
         );
+        if estimators.contains(&"bidirectional") {
+            head += "rel_tol = { bidirectional = 0.01 }\n";
+        }
         head + &self.expect.iter().map(Expectation::text).collect::<String>()
     }
 }

@@ -27,7 +27,9 @@ pub(crate) fn validate(arguments: &ValidateArguments) -> Result<Exit, CliError> 
         print(&format!("{} ({})\n", case.name, case.source))?;
         let project = project::open(&case.project)?;
         for estimator in case.estimators() {
-            let arguments = SimulationArguments { estimator, ..SimulationArguments::default() };
+            let rel_tol = estimator.as_ref().and_then(|name| case.rel_tol.get(name)).copied();
+            let arguments =
+                SimulationArguments { estimator, rel_tol, ..SimulationArguments::default() };
             let finished = simulate(&project, &arguments, true)?;
             if finished.exit == Exit::Interrupted {
                 return Ok(Exit::Interrupted);

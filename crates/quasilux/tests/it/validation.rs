@@ -56,6 +56,11 @@ fn what_is_no_case_is_refused() {
         ),
         ("no_sensor", Some(&*case("25").replace("\"spot\"", "\"sport\"")), "sport"),
         ("no_point", Some(&*case("25").replace("point = 0", "point = 1")), "no point 1"),
+        (
+            "no_estimator",
+            Some(&*format!("rel_tol = {{ path = 0.1 }}\n{}", case("25"))),
+            "none of the estimators",
+        ),
         ("no_figure", Some(&*case("25").replace("illuminance_lx", "luminance")), "luminance"),
     ] {
         let folder = folder(&format!("validate_{name}"));

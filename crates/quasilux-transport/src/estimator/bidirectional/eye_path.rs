@@ -10,6 +10,7 @@ use super::plan::{FoundBy, Receiver};
 use super::sums::TargetSums;
 use crate::bsdf::{Bsdf, BsdfSample, TransportMode};
 use crate::cutoff::MAX_EVENTS;
+use crate::lights::images::ImageSamples;
 use crate::lights::{Asking, ChoiceWork, EmitterPlace};
 use crate::path::sections::WorkCounts;
 use crate::path::subpath_weights::SubpathWeights;
@@ -41,6 +42,7 @@ pub(super) struct Start<'p, S> {
 pub(super) struct EyePaths<S> {
     shadows: ShadowQueue<S>,
     choice: ChoiceWork,
+    images: ImageSamples<S>,
     queries: Vec<RayQuery>,
     hits: Vec<Option<Hit>>,
     arrivals: Vec<Option<Interaction>>,
@@ -91,11 +93,12 @@ impl EyeWeights {
     }
 }
 
-impl<S> Default for EyePaths<S> {
+impl<S: Spectrum> Default for EyePaths<S> {
     fn default() -> Self {
         Self {
             shadows: ShadowQueue::default(),
             choice: ChoiceWork::default(),
+            images: ImageSamples::default(),
             queries: Vec::new(),
             hits: Vec::new(),
             arrivals: Vec::new(),
@@ -250,6 +253,7 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
             context.max_bounces.map_or(u32::MAX, |most| most - self.bounces_asked);
         let eye_vertex = &EyeVertex { vertex, weights: here };
         self.sample_direct_pointlike(engine, eye_vertex, work);
+        self.sample_direct_images(engine, eye_vertex, work);
         self.sample_direct_areas(engine, eye_vertex, work);
         self.connect(engine, eye_vertex, work);
         let next = bsdf.sample(wo, at.front, TransportMode::Radiance, &mut self.sampler);

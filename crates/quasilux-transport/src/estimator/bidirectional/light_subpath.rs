@@ -8,13 +8,15 @@ use super::engine::Engine;
 use super::plan::FoundBy;
 use super::sources::Photon;
 use crate::bsdf::{Bsdf, BsdfSample, TransportMode};
+use crate::context::Context;
 use crate::cutoff::MAX_EVENTS;
-use crate::lights::images::LightPathClass;
+use crate::lights::images::{ImageQuery, LightPathClass, Links};
 use crate::lights::{Asking, EmitterPlace, LightKind, OutsideLight};
 use crate::path::subpath_weights::{SubpathWeights, product};
 use crate::spectrum::Spectrum;
 use crate::world::flight::Flight;
 use crate::world::frame::Frame;
+use crate::world::vertex::{Surface, Vertex};
 use crate::world::{Interaction, RayOrigin};
 use glam::DVec3;
 use quasilux_bvh::{Hit, RayQuery};
@@ -266,6 +268,9 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
         bsdf: &Bsdf<S>,
         cos: f64,
     ) -> SubpathWeights {
+        if let Some(landings_m2) = self.mirrored_landings_m2(engine, at, bsdf) {
+            return SubpathWeights::of_landing(Some(landings_m2));
+        }
         let side = (!bsdf.transmits()).then_some(at.n);
         let arrival = Arrival {
             place: Asking { position: at.position, side, own: Some(at.facet) },
@@ -276,6 +281,26 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
             asks: if bsdf.is_specular() { Asks::Nothing } else { Asks::One },
         };
         self.leg.weights_at(engine, &self.photon, &arrival)
+    }
+
+    /// The density in m^-2 with which light lands here by mirrors that show it, where eye paths ask
+    /// for their images.
+    fn mirrored_landings_m2(
+        &self,
+        engine: &Engine<'_, '_, S>,
+        at: &Interaction,
+        bsdf: &Bsdf<S>,
+    ) -> Option<f64> {
+        let Context { world, lights, images, .. } = engine.context;
+        let LightPathClass::Shown(image) = self.leg.class else { return None };
+        if image as usize == self.photon.number || bsdf.is_specular() {
+            return None;
+        }
+        let surface = Surface::new(world, at, self.direction);
+        let vertex = &Vertex::on(world, at, &surface, S::white());
+        let query = ImageQuery { world, pointlikes: &lights.pointlikes, who: 0, vertex };
+        let lx = images.illuminance_lx(&query, image, &mut Links::default())?;
+        Some(engine.sources.per_lm(self.photon.number) * lx)
     }
 }
 

@@ -215,7 +215,7 @@ impl SpecularImages {
         let mut found = ImageSamples::default();
         for Receiver { who, vertex } in receivers {
             let query = ImageQuery { world, pointlikes, who: *who, vertex };
-            self.find(&query, shadows.max_bounces, Thinning::NONE, |_, _| 1.0, &mut found);
+            self.find(&query, shadows.max_bounces, Thinning::NONE, |_, _, _| 1.0, &mut found);
             for light_sample in &found.light_samples {
                 self.ask(&query, light_sample, &found.links, shadows);
             }
@@ -228,13 +228,13 @@ impl SpecularImages {
     /// unshadowed, one is chosen in proportion to what it gives where they are more than
     /// [`ALL_TESTED`].
     ///
-    /// `share` is the part of an image's light that counts, by the direction to it and the
-    /// illuminance in lx that it gives.
+    /// `share` is the part of an image's light that counts, by the number of its light, the
+    /// direction to it and the illuminance in lx that it gives.
     pub(crate) fn sample_direct<S: Spectrum>(
         &self,
         query: &ImageQuery<'_, S>,
         u: f64,
-        share: impl Fn(DVec3, f64) -> f64,
+        share: impl Fn(u32, DVec3, f64) -> f64,
         found: &mut ImageSamples<S>,
         shadows: &mut ShadowQueue<S>,
     ) {
@@ -300,7 +300,7 @@ impl SpecularImages {
         query: &ImageQuery<'_, S>,
         max_bounces: u32,
         Thinning { stride, phase }: Thinning,
-        share: impl Fn(DVec3, f64) -> f64,
+        share: impl Fn(u32, DVec3, f64) -> f64,
         found: &mut ImageSamples<S>,
     ) {
         let ImageSamples { links, light_samples, .. } = found;
@@ -312,7 +312,7 @@ impl SpecularImages {
                 break;
             }
             let Some(incidence) = self.incidence(query, image, links) else { continue };
-            let share = share(incidence.direction, incidence.reflected_lx());
+            let share = share(node.light, incidence.direction, incidence.reflected_lx());
             let ImageIncidence { path, direction, illuminance_lx } = incidence;
             let stands_for = if count < SURE { share } else { share * stride as f64 };
             let weight = query.vertex.weight(direction);

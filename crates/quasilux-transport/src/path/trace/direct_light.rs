@@ -50,7 +50,7 @@ impl<S: Spectrum> Path<'_, S> {
         if !context.images.is_empty() {
             let choice = Purpose::Image { surface: self.bounces_asked };
             let u = context.draw(&mut self.sampler, choice, Sampler::next_1d);
-            let share = |direction: DVec3, lx: f64| {
+            let share = |_: u32, direction: DVec3, lx: f64| {
                 self.weight_beside_landings(vertex, direction, lx / context.lights.lamps_lm)
             };
             let query = self.image_query(context, vertex);

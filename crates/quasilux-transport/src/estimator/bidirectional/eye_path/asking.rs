@@ -3,9 +3,11 @@
 
 use super::{EyePath, EyePaths, EyeWeights};
 use crate::bsdf::TransportMode;
+use crate::context::Context;
 use crate::estimator::bidirectional::engine::Engine;
 use crate::estimator::bidirectional::light_subpath::LightVertex;
 use crate::estimator::bidirectional::plan::FoundBy;
+use crate::lights::images::ImageQuery;
 use crate::lights::{Asking, Choice, ChosenPlace, DrawnDirection, EmitterPoint};
 use crate::path::subpath_weights::{of_connection, product};
 use crate::spectrum::Spectrum;
@@ -65,6 +67,29 @@ impl<S: Spectrum> EyePath<'_, S> {
         let sample = pointlikes.light_sample_of(number, eye_vertex.vertex);
         let per_lm = engine.sources.per_lm(number);
         self.ask(sample.map(|it| eye_vertex.beside_landings(it, per_lm, pdf)), eye_vertex, work);
+    }
+
+    /// Asks for the light of lights without extent in mirrors: of all images, or of one for several,
+    /// which is no part of weights.
+    pub(super) fn sample_direct_images(
+        &mut self,
+        engine: &Engine<'_, '_, S>,
+        eye_vertex: &EyeVertex<'_, '_, S>,
+        work: &mut EyePaths<S>,
+    ) {
+        let Context { world, lights, images, .. } = engine.context;
+        if images.is_empty() {
+            return;
+        }
+        let u = self.sampler.next_1d();
+        let share = |light: u32, direction: DVec3, lx: f64| {
+            let landings = engine.sources.per_lm(light as usize) * lx;
+            let to_eye = eye_vertex.to_eye(direction, FoundBy::Photons);
+            of_connection(product(landings, to_eye), 0.0)
+        };
+        let EyeVertex { vertex, .. } = eye_vertex;
+        let query = ImageQuery { world, pointlikes: &lights.pointlikes, who: self.number, vertex };
+        images.sample_direct(&query, u, share, &mut work.images, &mut work.shadows);
     }
 
     /// Asks for the light of lights with an extent, and from outside.
