@@ -33,6 +33,8 @@ pub(crate) struct EmitterPoint {
     pub(crate) lx_sr: f64,
     /// Density with which it was drawn.
     pub(crate) pdf_sr: f64,
+    /// The part of the photons from it that mirrors between keep.
+    pub(crate) kept: f64,
 }
 
 impl Emitters {
@@ -89,7 +91,7 @@ impl Emitters {
         let pdf_sr = pdf_m2 * distance_m * distance_m / cos_light;
         let lx_sr = facet.emitted_cd_m2 * cos;
         let illuminance_lx =
-            lx_sr / (pdf_sr + beside_sr(&EmitterPoint { direction, lx_sr, pdf_sr }));
+            lx_sr / (pdf_sr + beside_sr(&EmitterPoint { direction, lx_sr, pdf_sr, kept: 1.0 }));
         let light = vertex.weight(direction) * illuminance_lx;
         let light_sample = LightSample::unless_dark(direction, distance_m, light, illuminance_lx)?;
         Some(LightSample { facet: number, ..light_sample })

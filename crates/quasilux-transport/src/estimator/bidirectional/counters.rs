@@ -167,6 +167,7 @@ fn share<S: Spectrum>(
     let weights = passing.weights_at(engine, position, n, along_m, receiver.is_cell());
     let (alone, is_narrow) = match passing.leg.last {
         LastVertex::Light => (1.0, false),
+        LastVertex::Surface { is_narrow, .. } if passing.leg.is_asked_for() => (1.0, is_narrow),
         LastVertex::Surface { cos: cos_there, is_narrow } => {
             let distance_m = passing.distance_m(along_m);
             let geometry_m2 = cos * cos_there / (distance_m * distance_m);

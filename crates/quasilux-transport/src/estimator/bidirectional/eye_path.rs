@@ -6,9 +6,11 @@ mod asking;
 use super::departure::Departure;
 use super::engine::Engine;
 use super::light_subpath::{LightSubpaths, is_narrow};
-use super::plan::{FoundBy, Receiver};
+use super::mirrored_way::MirroredWay;
+use super::plan::{CONNECTED, FoundBy, Receiver};
 use super::sums::TargetSums;
 use crate::bsdf::{Bsdf, BsdfSample, TransportMode};
+use crate::context::Context;
 use crate::cutoff::MAX_EVENTS;
 use crate::lights::images::ImageSamples;
 use crate::lights::{Asking, ChoiceWork, EmitterPlace};
@@ -72,8 +74,18 @@ struct EyePath<'p, S> {
     weights: EyeWeights,
     /// Where it last asked for light; `None` since it was mirrored or refracted.
     asked_from: Option<Asking>,
+    /// Since it last asked for light: over mirrors alone.
+    mirrored: Option<MirroredFrom<S>>,
     /// Bounces behind the light that it last asked for.
     bounces_asked: u32,
+}
+
+/// A way over mirrors from a vertex that asked for light.
+struct MirroredFrom<S> {
+    way: MirroredWay<S>,
+    asked_from: Asking,
+    /// Density in sr^-1 of the direction in which it left.
+    pdf_sr: f64,
 }
 
 /// What an eye path weighs, by who finds a light past narrow surfaces ([`FoundBy`]).
@@ -206,6 +218,7 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
             vertices: 0,
             weights: EyeWeights([SubpathWeights::new(1.0 / pdf_sr, local.z / pdf_sr); 2]),
             asked_from: Some(Asking::at(vertex)),
+            mirrored: MirroredFrom::new(context, vertex, pdf_sr),
             bounces_asked: 0,
         };
         // Photons that come straight.
@@ -216,6 +229,11 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
             path.sample_direct_all_pointlikes(engine, eye_vertex, work);
         }
         path.sample_direct_areas(engine, eye_vertex, work);
+        let weights = EyeWeights(
+            FoundBy::BOTH
+                .map(|found| SubpathWeights::new(engine.plan.photons(receiver, true, found), 0.0)),
+        );
+        path.sample_direct_emitter_images(engine, &EyeVertex { vertex, weights }, work);
         path
     }
 
@@ -255,14 +273,17 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
         self.sample_direct_pointlike(engine, eye_vertex, work);
         self.sample_direct_images(engine, eye_vertex, work);
         self.sample_direct_areas(engine, eye_vertex, work);
+        self.sample_direct_emitter_images(engine, eye_vertex, work);
         self.connect(engine, eye_vertex, work);
         let next = bsdf.sample(wo, at.front, TransportMode::Radiance, &mut self.sampler);
         let Some(next) = next else { return false };
         let pdfs_sr = [bsdf.survival_pdf_sr(wo, next.wi), bsdf.survival_pdf_sr(next.wi, wo)];
         let cos = next.wi.z.abs();
-        self.weights = here.map(|it| it.scattered(cos, pdfs_sr[0], pdfs_sr[1]));
+        let scattered = here.map(|it| it.scattered(cos, pdfs_sr[0], pdfs_sr[1]));
+        self.weights = scattered.map(|it| it.times(CONNECTED, 1.0));
         self.distance_m = 0.0;
         self.asked_from = Some(Asking::at(vertex));
+        self.mirrored = MirroredFrom::new(context, vertex, pdfs_sr[0]);
         self.go_on(engine, at, &frame, &next)
     }
 
@@ -277,6 +298,8 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
         let &Surface { bsdf, frame, wo, .. } = surface;
         let next = bsdf.sample(wo, at.front, TransportMode::Radiance, &mut self.sampler);
         let Some(next) = next else { return false };
+        let mirrored = self.mirrored.take().filter(|_| next.wi.z > 0.0);
+        self.mirrored = mirrored.and_then(|from| from.past(engine.context, at, bsdf, wo.z));
         let goes_straight = next.wi.z < 0.0 && bsdf.straight_transmittance(1.0).is_some();
         if goes_straight {
             self.distance_m += at.distance_m;
@@ -339,9 +362,15 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
         let emitters = context.lights.emitters.as_ref().filter(|_| emitted_cd_m2 > 0.0);
         let Some(emitters) = emitters else { return };
         let asked = EmitterPlace { facet: at.facet, position: at.position };
-        let pdf_m2 =
-            self.asked_from.map_or(0.0, |place| emitters.pdf_m2(&context.world, place, asked));
         let cos = at.n.dot(self.direction).abs();
+        let mirrored = self.mirrored.as_ref().and_then(|from| from.asked(context, at, cos));
+        let (pdf_m2, arrived) = match (mirrored, self.asked_from) {
+            (Some(Asked { pdf_m2, inverse_m2 }), _) => {
+                (pdf_m2, arrived.map(|it| it.asked(inverse_m2)))
+            }
+            (None, Some(place)) => (emitters.pdf_m2(&context.world, place, asked), arrived),
+            (None, None) => (0.0, arrived),
+        };
         let emission = engine.sources.of_emitters_per_lm() * emitted_cd_m2 * cos;
         let weights = self.straight(arrived).select(engine.emitters_found_by);
         let weight = weights.of_hit(pdf_m2, emission);
@@ -379,5 +408,41 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
             let light = self.beta * (sun_cd_m2 * share(asked_sr, true));
             found.add(self.section, self.bounces, light);
         }
+    }
+}
+
+/// How an eye path asks for the image of a facet that it ran into over mirrors.
+struct Asked {
+    /// Density in m^-2 with which it does.
+    pdf_m2: f64,
+    /// One over the density in m^-2 with which its direction leads there.
+    inverse_m2: f64,
+}
+
+impl<S: Spectrum> MirroredFrom<S> {
+    fn new(context: &Context<'_, S>, vertex: &Vertex<'_, S>, pdf_sr: f64) -> Option<Self> {
+        let way = MirroredWay::new(context)?;
+        Some(Self { way, asked_from: Asking::at(vertex), pdf_sr })
+    }
+
+    fn past(
+        self,
+        context: &Context<'_, S>,
+        at: &Interaction,
+        bsdf: &Bsdf<S>,
+        cos: f64,
+    ) -> Option<Self> {
+        let way = self.way.past(context, at, bsdf, cos)?;
+        Some(Self { way, ..self })
+    }
+
+    /// `None` without a mirror.
+    fn asked(&self, context: &Context<'_, S>, at: &Interaction, cos: f64) -> Option<Asked> {
+        let Self { way, asked_from, pdf_sr } = self;
+        let asked = EmitterPlace { facet: at.facet, position: at.position };
+        let pdf_m2 = way.asked_of_eye_m2(context, *asked_from, asked)?;
+        let distance_m = way.distance_m(at.distance_m);
+        let inverse_m2 = distance_m * distance_m / (cos * pdf_sr * way.kept());
+        Some(Asked { pdf_m2, inverse_m2 })
     }
 }

@@ -5,7 +5,8 @@
 
 use super::departure::Departure;
 use super::engine::Engine;
-use super::plan::FoundBy;
+use super::mirrored_way::MirroredWay;
+use super::plan::{CONNECTED, FoundBy};
 use super::sources::Photon;
 use crate::bsdf::{Bsdf, BsdfSample, TransportMode};
 use crate::context::Context;
@@ -55,11 +56,11 @@ struct LightSubpath<'p, S> {
     flux_lm: S,
     /// Surfaces and panes so far.
     bounces: u32,
-    leg: Leg,
+    leg: Leg<S>,
 }
 
 /// The way of a subpath since its last vertex.
-pub(super) struct Leg {
+pub(super) struct Leg<S> {
     /// What it weighs, having left its last vertex; nothing is known before the first.
     weights: SubpathWeights,
     /// Before the last pane, in m.
@@ -67,6 +68,8 @@ pub(super) struct Leg {
     pub(super) last: LastVertex,
     /// As those who gather see its way.
     pub(super) class: LightPathClass,
+    /// From an emitting facet over mirrors alone.
+    mirrored: Option<MirroredWay<S>>,
 }
 
 /// What a leg begins at.
@@ -85,7 +88,7 @@ pub(super) struct Passing<'s, S> {
     pub(super) flight: Flight,
     pub(super) flux_lm: S,
     pub(super) bounces: u32,
-    pub(super) leg: &'s Leg,
+    pub(super) leg: &'s Leg<S>,
     photon: &'s Photon,
 }
 
@@ -181,6 +184,7 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
             distance_m: 0.0,
             last: LastVertex::Light,
             class,
+            mirrored: photon.emission.from.facet().and_then(|_| MirroredWay::new(engine.context)),
         };
         let flux_lm = S::white() * photon.flux_lm;
         let (from, direction) = (photon.emission.from, photon.emission.direction);
@@ -220,11 +224,15 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
             let goes_straight = next.wi.z < 0.0 && bsdf.straight_transmittance(1.0).is_some();
             if goes_straight {
                 self.leg.distance_m += at.distance_m;
+                self.leg.mirrored = None;
             } else {
                 let weights = self.weights_at(engine, at, bsdf, wo.z);
                 let last = LastVertex::Surface { cos: next.wi.z.abs(), is_narrow: true };
                 let weights = weights.mirrored(next.wi.z.abs());
-                self.leg = Leg { weights, distance_m: 0.0, last, class: self.leg.class };
+                let class = self.leg.class;
+                let mirrored = self.leg.mirrored.take().filter(|_| next.wi.z > 0.0);
+                let mirrored = mirrored.and_then(|way| way.past(context, at, bsdf, wo.z));
+                self.leg = Leg { weights, distance_m: 0.0, last, class, mirrored };
             }
             self.leg.class = self.leg.class.after(&context.images, bsdf, at.facet, next.wi.z > 0.0);
             return self.go_on(engine, at, &frame, &next);
@@ -238,8 +246,10 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
         let cos = next.wi.z.abs();
         let pdfs_sr = [bsdf.survival_pdf_sr(wo, next.wi), bsdf.survival_pdf_sr(next.wi, wo)];
         let weights = weights.scattered(cos, pdfs_sr[0], pdfs_sr[1]);
+        let weights = weights.times(CONNECTED, 1.0);
         let last = LastVertex::Surface { cos, is_narrow: is_narrow(bsdf) };
-        self.leg = Leg { weights, distance_m: 0.0, last, class: LightPathClass::Found };
+        let (class, mirrored) = (LightPathClass::Found, None);
+        self.leg = Leg { weights, distance_m: 0.0, last, class, mirrored };
         self.go_on(engine, at, &frame, &next)
     }
 
@@ -304,9 +314,14 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
     }
 }
 
-impl Leg {
+impl<S: Spectrum> Leg<S> {
+    /// Whether it comes from an emitting facet whose image is asked for.
+    pub(super) fn is_asked_for(&self) -> bool {
+        self.mirrored.is_some()
+    }
+
     /// What its subpath weighs where it ends.
-    fn weights_at<S: Spectrum>(
+    fn weights_at(
         &self,
         engine: &Engine<'_, '_, S>,
         photon: &Photon,
@@ -315,7 +330,12 @@ impl Leg {
         let distance_m = self.distance_m + arrival.along_m;
         match self.last {
             LastVertex::Light => arrival.of_photon(engine, photon, distance_m),
-            LastVertex::Surface { .. } => self.weights.arrived(distance_m, arrival.cos),
+            LastVertex::Surface { .. } => {
+                let weights = self.weights.arrived(distance_m, arrival.cos);
+                let vcm = self.mirrored.as_ref().filter(|_| arrival.asks != Asks::Nothing);
+                let vcm = vcm.and_then(|way| arrival.of_image(engine, photon, way));
+                vcm.map_or(weights, |vcm| weights.asked(vcm))
+            }
         }
     }
 }
@@ -381,6 +401,22 @@ enum Asks {
 }
 
 impl Arrival {
+    /// From an emitting facet over mirrors: how densely its image is asked for here, over the
+    /// density of the photon.
+    fn of_image<S: Spectrum>(
+        &self,
+        engine: &Engine<'_, '_, S>,
+        photon: &Photon,
+        way: &MirroredWay<S>,
+    ) -> Option<f64> {
+        let emission = Emission::new(engine, photon);
+        let left_from = EmitterPlace { facet: emission.facet, position: emission.position };
+        let pdf_m2 = way.asked_of_light_m2(engine.context, self.place, left_from)?;
+        let distance_m = way.distance_m(self.along_m);
+        let per_m2 = emission.per_m2_sr * self.cos * way.kept();
+        Some(product(pdf_m2, distance_m * distance_m / per_m2))
+    }
+
     /// Straight from the light of a photon, panes between or not: the densities of asking for its
     /// light here, and of running into it, over that of the photon.
     fn of_photon<S: Spectrum>(

@@ -16,7 +16,7 @@
 //! |---|---|---|---|
 //! | eye path asks for light | `E_k a`, a the choice of the lamp, of the place on it, of the direction to the sky or the sun | 1 | `eye_path` |
 //! | eye path runs into a facet, the sky or the sun | `E_k b`, b the density of its direction | 1 | `eye_path` |
-//! | eye path joined to a light vertex between | `E_j L_(j + 1)` | 1 | `eye_path` |
+//! | eye path joined to a light vertex between | `E_j L_(j + 1)` | 1/4 | `eye_path` |
 //! | light vertex joined to the target | `L_1` | `J q`, q by cosines over squared distance | `joins` |
 //! | photon crosses the disc or cell of area A | `A L_1 l`, l the density of landing there | 1, or `M` where `x_1` is narrow and eye paths hardly meet the light | `counters` |
 //!
@@ -26,7 +26,8 @@
 //! [`crate::lights::Lights::ways_in`]. Vertices of mirrors and glass are joined to nothing. Panes
 //! that let light straight through are no vertices: the edge goes on behind them, and what they
 //! reflect of it counts in no density. Light of lamps without extent is computed at points, and
-//! over the mirrors that show it there.
+//! over the mirrors that show it there. Surfaces ask for it over plane mirrors as well (`lights::images`),
+//! and all vertices for emitting facets (`mirrored_way`).
 //!
 //! A photon counts as one for each eye path in weights, however many there are, but where the last
 //! surface sends much into few directions: the little that it blurs, and the noise of photons,
@@ -60,6 +61,7 @@ mod eye_path;
 mod intensities;
 mod joins;
 mod light_subpath;
+mod mirrored_way;
 mod peaks;
 mod plan;
 mod progress;

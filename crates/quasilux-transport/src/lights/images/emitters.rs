@@ -121,7 +121,8 @@ impl EmitterImages {
         }
         let pdf_sr = choice.pdf * pdf_m2 * distance_m * distance_m / cos_light;
         let lx_sr = facet.emitted_cd_m2 * cos;
-        let emitter_point = EmitterPoint { direction, lx_sr, pdf_sr };
+        let kept = path.reflected.max_channel();
+        let emitter_point = EmitterPoint { direction, lx_sr, pdf_sr, kept };
         let illuminance_lx = lx_sr / (pdf_sr + beside_sr(&emitter_point));
         let light = vertex.weight(direction) * path.reflected * illuminance_lx;
         if light.luminance() != 0.0 {

@@ -126,7 +126,7 @@ impl<S: Spectrum> Path<'_, S> {
         vertex: &Vertex<'_, S>,
     ) -> impl Fn(&EmitterPoint) -> f64 {
         let (subpath, flux_lm) = (self.subpath, context.lights.lamps_lm);
-        move |&EmitterPoint { direction, lx_sr, pdf_sr }| match subpath {
+        move |&EmitterPoint { direction, lx_sr, pdf_sr, .. }| match subpath {
             None => {
                 let beside_sr = vertex.pdf_sr(direction);
                 beside_sr * (beside_sr / pdf_sr)

@@ -6,7 +6,7 @@ use crate::bsdf::TransportMode;
 use crate::context::Context;
 use crate::estimator::bidirectional::engine::Engine;
 use crate::estimator::bidirectional::light_subpath::LightVertex;
-use crate::estimator::bidirectional::plan::FoundBy;
+use crate::estimator::bidirectional::plan::{CONNECTED, FoundBy};
 use crate::lights::images::ImageQuery;
 use crate::lights::{Asking, Choice, ChosenPlace, DrawnDirection, EmitterPoint};
 use crate::path::subpath_weights::{of_connection, product};
@@ -140,12 +140,7 @@ impl<S: Spectrum> EyePath<'_, S> {
     ) {
         let Some(emitters) = &engine.context.lights.emitters else { return };
         let u = self.sampler.next_2d();
-        let per_lm = engine.sources.of_emitters_per_lm();
-        let beside_sr = |point: &EmitterPoint| {
-            let to_eye = eye_vertex.to_eye(point.direction, engine.emitters_found_by);
-            let landed = product(per_lm * point.lx_sr, to_eye);
-            eye_vertex.vertex.survival_pdf_sr(point.direction) + landed
-        };
+        let beside_sr = |point: &EmitterPoint| eye_vertex.beside_asked_sr(engine, point);
         let sample = emitters.light_sample(
             &engine.context.world,
             eye_vertex.vertex,
@@ -154,6 +149,24 @@ impl<S: Spectrum> EyePath<'_, S> {
             &mut work.choice,
         );
         self.ask(sample, eye_vertex, work);
+    }
+
+    /// Asks for the light of area lights as mirrors show them.
+    pub(super) fn sample_direct_emitter_images(
+        &mut self,
+        engine: &Engine<'_, '_, S>,
+        eye_vertex: &EyeVertex<'_, '_, S>,
+        work: &mut EyePaths<S>,
+    ) {
+        let Context { world, lights, images, .. } = engine.context;
+        if !images.show_emitters() {
+            return;
+        }
+        let u = self.sampler.next_2d();
+        let beside_sr = |point: &EmitterPoint| eye_vertex.beside_asked_sr(engine, point);
+        let EyeVertex { vertex, .. } = eye_vertex;
+        let query = ImageQuery { world, pointlikes: &lights.pointlikes, who: self.number, vertex };
+        images.sample_emitters(&query, u, beside_sr, &mut work.images, &mut work.shadows);
     }
 
     fn sample_direct_outside(
@@ -223,7 +236,10 @@ impl<S: Spectrum> EyePath<'_, S> {
         if count == 0 {
             return;
         }
-        let u = self.sampler.next_1d();
+        let u = self.sampler.next_1d() / CONNECTED;
+        if u >= 1.0 {
+            return;
+        }
         let stride = count.div_ceil(CANDIDATES);
         let first = ((u * stride as f64) as usize).min(stride - 1);
         let u = u * stride as f64 - first as f64;
@@ -259,6 +275,15 @@ impl<S: Spectrum> EyeVertex<'_, '_, S> {
     /// which light that comes from `direction` makes it.
     fn to_eye(&self, direction: DVec3, found: FoundBy) -> f64 {
         self.weights.select(found).towards(self.vertex.reverse_survival_pdf_sr(direction))
+    }
+
+    /// Densities in sr^-1 of the other techniques beside asking for a point of an emitting facet,
+    /// over mirrors or not.
+    fn beside_asked_sr(&self, engine: &Engine<'_, '_, S>, point: &EmitterPoint) -> f64 {
+        let &EmitterPoint { direction, lx_sr, kept, .. } = point;
+        let to_eye = self.to_eye(direction, engine.emitters_found_by);
+        let landed = product(engine.sources.of_emitters_per_lm() * lx_sr, to_eye);
+        kept * (self.vertex.survival_pdf_sr(direction) + landed)
     }
 
     /// The part of the light of a lamp that photons leave, where it is asked with this probability.
@@ -297,7 +322,8 @@ impl<S: Spectrum> EyeVertex<'_, '_, S> {
             bsdf.survival_pdf_sr(*wo, wi) * cos / square_m2,
             self.to_eye(direction, *found_by),
         );
-        let lx = cos * cos_there / square_m2 * of_connection(to_eye, to_light);
+        let share = of_connection(to_eye / CONNECTED, to_light / CONNECTED);
+        let lx = cos * cos_there / square_m2 * share / CONNECTED;
         let light = self.vertex.weight(direction) * *flux_lm * scattered * lx;
         let is_something = light.luminance() > 0.0 && light.luminance().is_finite();
         is_something.then_some(Connection { vertex: light_vertex, direction, distance_m, light })
