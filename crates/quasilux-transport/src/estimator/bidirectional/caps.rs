@@ -1,14 +1,16 @@
 //! The most that one sample can add, by class of paths, and the light that no sample met.
 //!
 //! For each technique i with `n_i` samples an index there is a cap on `f / p_i` over all paths of a
-//! class; then `f / (sum n_i p_i) <= W` with `1 / W = sum n_i / cap_i` over the techniques that can
-//! make all of the class. See the head of the folder for what follows from W.
+//! class, and a number `K_i` of samples that a subpath may have; what follows for light that no
+//! sample met goes with `K W`, 1 over the sum of `n_i / (K_i cap_i)` over the techniques that can
+//! make all of the class (`docs/unseen.md`).
 
 use super::boxes::BoxTree;
 use super::engine::Engine;
 use super::intensities::IntensityBound;
 use super::peaks::Peak;
 use super::plan::{FoundBy, Receiver};
+use super::samples::{samples_at_emitters, samples_of_subpaths};
 use super::sources::{PhotonFluxes, SKY_MARGIN};
 use super::supremum::{Bounded, SeenPart, supremum, supremum_over};
 use crate::spectrum::Spectrum;
@@ -16,7 +18,6 @@ use crate::stats::targets::Target;
 use crate::stats::unseen::UNSEEN_CONFIDENCE;
 use crate::world::World;
 use glam::DVec3;
-use quasilux_scene::Scene;
 use rayon::prelude::*;
 use std::f64::consts::{FRAC_1_PI, PI};
 
@@ -41,6 +42,8 @@ struct Kind {
     eye_lx: f64,
     /// Of those that run into it also past mirrors and glass.
     met_lx: f64,
+    /// K of both, where only those that run into it count.
+    eye_samples: Option<f64>,
     /// Of what comes straight to a target, where that is sampled.
     straight_lx: Option<f64>,
     /// Whether nothing but photons finds what comes over specular surfaces alone.
@@ -50,7 +53,7 @@ struct Kind {
 }
 
 impl Caps {
-    pub(super) fn new<S: Spectrum>(engine: &Engine<'_, '_, S>, scene: &Scene) -> Self {
+    pub(super) fn new<S: Spectrum>(engine: &Engine<'_, '_, S>) -> Self {
         let context = engine.context;
         let world = &context.world;
         let corners = |number: usize| {
@@ -68,10 +71,7 @@ impl Caps {
         let surfaces = Surfaces { world, peaks, tree: BoxTree::new(&boxes), facets, pointlikes };
         let no_bounce = context.max_bounces == Some(0);
         let kinds = kinds(engine, &surfaces);
-        let most_kept = scene.materials.iter().map(|of| of.bsdf.most_kept().max_channel());
-        let scattering = most_kept.zip(&surfaces.peaks.0).filter(|(_, it)| it.value_sr > 0.0);
-        let largest = scattering.map(|(kept, _)| kept).fold(0.0, f64::max).min(1.0);
-        let samples = 1.0 / (1.0 - largest);
+        let samples = samples_of_subpaths(world);
         let has_specular = world.has_specular_facets();
         let of_target = |receiver: &Receiver| {
             let joined_sr_m2 = if no_bounce { 0.0 } else { surfaces.joined(receiver) };
@@ -86,7 +86,10 @@ impl Caps {
             f64::INFINITY
         } else {
             let straight = |kind: &Kind| kind.straight_lx.unwrap_or(0.0);
-            let of_kind = |kind: &Kind| straight(kind).max(samples * kind.eye_lx);
+            let of_kind = |kind: &Kind| {
+                let samples = kind.eye_samples.unwrap_or(samples);
+                straight(kind).max(samples * kind.eye_lx)
+            };
             kinds.iter().map(of_kind).fold(0.0, f64::max)
         };
         Self { of_targets_lx, of_eye_lx }
@@ -119,7 +122,7 @@ struct Class<'c, 'l, 'a, S> {
     /// The most that a lumen at a light vertex gives where it is joined, over the chance of that,
     /// in sr^-1 m^-2.
     joined_sr_m2: f64,
-    /// K: samples that a subpath may have in a set of paths, given that it has one.
+    /// K of what has a sample at each vertex.
     samples: f64,
 }
 
@@ -128,36 +131,39 @@ impl<S: Spectrum> Class<'_, '_, '_, S> {
     fn largest(&self, surfaces: &Surfaces<'_, S>, has_specular: bool, no_bounce: bool) -> f64 {
         let &Self { engine, receiver, kind, samples, .. } = self;
         let plan = &engine.plan;
-        let disc = receiver.area_m2 / kind.flux_lm;
+        // Numbers of samples over K and their caps; light that comes straight is met once.
+        let straight_disc = receiver.area_m2 / kind.flux_lm;
+        let disc = straight_disc / samples;
         let all_photons = plan.photons(receiver, true, kind.found_by) / kind.flux_lm;
-        let joined = plan.joined as f64 / (kind.flux_lm * self.joined_sr_m2);
-        let [eye, met] = [kind.eye_lx.recip(), kind.met_lx.recip()];
+        let joined = plan.joined as f64 / (kind.flux_lm * self.joined_sr_m2 * samples);
+        let eye = (kind.eye_lx * kind.eye_samples.unwrap_or(samples)).recip();
+        let met = (kind.met_lx * kind.eye_samples.unwrap_or(samples)).recip();
         let mut largest = 0.0_f64;
-        let mut class = |counts: f64, samples: f64| {
-            largest = largest.max(if counts > 0.0 { samples / counts } else { f64::INFINITY });
+        let mut class = |counts: f64| {
+            largest = largest.max(if counts > 0.0 { counts.recip() } else { f64::INFINITY });
         };
         let straight_lx = match receiver.target {
             Target::Cell { .. } => kind.straight_lx.or_else(|| Some(surfaces.on_cell(receiver))),
             Target::Point { .. } => kind.straight_lx,
         };
         if let Some(straight_lx) = straight_lx {
-            class(straight_lx.recip() + disc, 1.0);
+            class(straight_lx.recip() + straight_disc);
         }
         if no_bounce {
             return largest;
         }
         if !surfaces.facets.is_empty() {
-            class(eye + joined + disc, samples);
+            class(eye + joined + disc);
         }
         if has_specular {
             if !surfaces.facets.is_empty() {
                 // Specular last, first, and both.
-                class(eye + all_photons, samples);
-                class(met + joined + disc, samples);
-                class(met + all_photons, samples);
+                class(eye + all_photons / samples);
+                class(met + joined + disc);
+                class(met + all_photons / samples);
             }
             if kind.is_hidden_by_mirrors || receiver.is_cell() {
-                class(met + all_photons, 1.0);
+                class(met + all_photons);
             }
         }
         largest
@@ -180,6 +186,7 @@ fn kinds<S: Spectrum>(engine: &Engine<'_, '_, S>, surfaces: &Surfaces<'_, S>) ->
             flux_lm: pointlikes_lm,
             eye_lx: surfaces.lit_by_pointlikes(engine),
             met_lx: never,
+            eye_samples: None,
             straight_lx: None,
             is_hidden_by_mirrors: images_hide,
             found_by: FoundBy::Photons,
@@ -188,6 +195,7 @@ fn kinds<S: Spectrum>(engine: &Engine<'_, '_, S>, surfaces: &Surfaces<'_, S>) ->
             flux_lm: luminaires_lm,
             eye_lx: never,
             met_lx: never,
+            eye_samples: None,
             straight_lx: Some(never),
             is_hidden_by_mirrors: true,
             found_by: FoundBy::Photons,
@@ -196,6 +204,7 @@ fn kinds<S: Spectrum>(engine: &Engine<'_, '_, S>, surfaces: &Surfaces<'_, S>) ->
             flux_lm: emitters_lm,
             eye_lx: largest_lx,
             met_lx: largest_lx,
+            eye_samples: Some(samples_at_emitters(&context.world)),
             straight_lx: Some(largest_lx),
             is_hidden_by_mirrors: true,
             found_by: engine.emitters_found_by,
@@ -204,6 +213,8 @@ fn kinds<S: Spectrum>(engine: &Engine<'_, '_, S>, surfaces: &Surfaces<'_, S>) ->
             flux_lm: sky_lm,
             eye_lx: sky_lx,
             met_lx: sky_lx,
+            // Whoever meets the sky is gone.
+            eye_samples: Some(1.0),
             straight_lx: Some(sky_lx),
             is_hidden_by_mirrors: true,
             found_by: engine.sky_found_by,
@@ -212,6 +223,7 @@ fn kinds<S: Spectrum>(engine: &Engine<'_, '_, S>, surfaces: &Surfaces<'_, S>) ->
             flux_lm: sun_lm,
             eye_lx: PI * surfaces.peaks.largest_sr() * sun_lx,
             met_lx: never,
+            eye_samples: None,
             straight_lx: Some(sun_lx),
             is_hidden_by_mirrors: true,
             found_by: FoundBy::Photons,

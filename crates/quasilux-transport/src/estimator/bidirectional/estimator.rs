@@ -80,7 +80,7 @@ impl<'a, S: Spectrum> BidirectionalEstimator<'a, S> {
         let replicates = settings.effective_replicates();
         let empty = TargetSums::new(context.listed_terms);
         Self {
-            caps: Caps::new(&engine, scene),
+            caps: Caps::new(&engine),
             engine,
             scene,
             exact,

@@ -46,8 +46,8 @@
 //!
 //! Luminaires with an area and lamps chosen from a table are bounded by joins and photons alone.
 //! Of narrow materials and of the sky suprema are looked up on grids, with a margin: all others are
-//! never too low. With 1 over the largest part that a scattering surface absorbs for K, see
-//! [`caps::Caps`] for what follows.
+//! never too low. For K, the samples that a subpath may have, see `samples`, and [`caps::Caps`] for
+//! what follows.
 //!
 //! Read on at `unit`, which traces all of this for some indices, and `estimator`.
 
@@ -65,6 +65,7 @@ mod mirrored_way;
 mod peaks;
 mod plan;
 mod progress;
+mod samples;
 mod sources;
 mod sums;
 mod supremum;
