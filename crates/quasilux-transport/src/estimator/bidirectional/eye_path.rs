@@ -263,7 +263,7 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
         }
         // Panes bend nothing: at the first surface this is the direction in which it left.
         let geometry_m2 = self.receiver.n.dot(self.direction) * wo.z / (distance_m * distance_m);
-        let here = self.first_surface(engine, arrived, bsdf, geometry_m2);
+        let here = self.beside_light_subpaths(engine, arrived, bsdf, geometry_m2);
         self.vertices += 1;
         let vertex = &Vertex::on(&context.world, at, surface, self.beta);
         self.bounces_asked = self.bounces + 1;
@@ -279,8 +279,7 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
         let Some(next) = next else { return false };
         let pdfs_sr = [bsdf.survival_pdf_sr(wo, next.wi), bsdf.survival_pdf_sr(next.wi, wo)];
         let cos = next.wi.z.abs();
-        let scattered = here.map(|it| it.scattered(cos, pdfs_sr[0], pdfs_sr[1]));
-        self.weights = scattered.map(|it| it.times(CONNECTED, 1.0));
+        self.weights = here.map(|it| it.scattered(cos, pdfs_sr[0], pdfs_sr[1]));
         self.distance_m = 0.0;
         self.asked_from = Some(Asking::at(vertex));
         self.mirrored = MirroredFrom::new(context, vertex, pdfs_sr[0]);
@@ -304,7 +303,7 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
         if goes_straight {
             self.distance_m += at.distance_m;
         } else {
-            let here = self.first_surface(engine, arrived, bsdf, 0.0);
+            let here = self.beside_light_subpaths(engine, arrived, bsdf, 0.0);
             self.weights = here.map(|it| it.mirrored(next.wi.z.abs()));
             self.distance_m = 0.0;
             self.vertices += 1;
@@ -313,8 +312,9 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
         self.go_on(engine, at, &frame, &next)
     }
 
-    /// What it weighs at its first surface, where joins and photons take part; elsewhere as it is.
-    fn first_surface(
+    /// What it weighs at a surface: light subpaths are joined to the target at the first, where
+    /// photons take part as well, and connected to a part of the others.
+    fn beside_light_subpaths(
         &self,
         engine: &Engine<'_, '_, S>,
         arrived: EyeWeights,
@@ -322,7 +322,7 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
         geometry_m2: f64,
     ) -> EyeWeights {
         if self.vertices > 0 {
-            return arrived;
+            return arrived.map(|it| it.times(CONNECTED, 1.0));
         }
         let Engine { plan, .. } = engine;
         let joins = plan.joins(self.receiver, geometry_m2);

@@ -3,6 +3,7 @@
 //!
 //! Flat panes that let light straight through are no vertices: they lie on the edges between them.
 
+use super::arrival::{Arrival, Asks};
 use super::departure::Departure;
 use super::engine::Engine;
 use super::mirrored_way::MirroredWay;
@@ -12,8 +13,8 @@ use crate::bsdf::{Bsdf, BsdfSample, TransportMode};
 use crate::context::Context;
 use crate::cutoff::MAX_EVENTS;
 use crate::lights::images::{ImageQuery, LightPathClass, Links};
-use crate::lights::{Asking, EmitterPlace, LightKind, OutsideLight};
-use crate::path::subpath_weights::{SubpathWeights, product};
+use crate::lights::{Asking, LightKind};
+use crate::path::subpath_weights::SubpathWeights;
 use crate::spectrum::Spectrum;
 use crate::world::flight::Flight;
 use crate::world::frame::Frame;
@@ -246,7 +247,6 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
         let cos = next.wi.z.abs();
         let pdfs_sr = [bsdf.survival_pdf_sr(wo, next.wi), bsdf.survival_pdf_sr(next.wi, wo)];
         let weights = weights.scattered(cos, pdfs_sr[0], pdfs_sr[1]);
-        let weights = weights.times(CONNECTED, 1.0);
         let last = LastVertex::Surface { cos, is_narrow: is_narrow(bsdf) };
         let (class, mirrored) = (LightPathClass::Found, None);
         self.leg = Leg { weights, distance_m: 0.0, last, class, mirrored };
@@ -290,7 +290,11 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
             cos,
             asks: if bsdf.is_specular() { Asks::Nothing } else { Asks::One },
         };
-        self.leg.weights_at(engine, &self.photon, &arrival)
+        let weights = self.leg.weights_at(engine, &self.photon, &arrival);
+        match self.leg.last {
+            LastVertex::Surface { .. } if !self.leg.is_asked_for() => weights.times(CONNECTED, 1.0),
+            LastVertex::Light | LastVertex::Surface { .. } => weights,
+        }
     }
 
     /// The density in m^-2 with which light lands here by mirrors that show it, where eye paths ask
@@ -375,121 +379,6 @@ impl<S: Spectrum> Passing<'_, S> {
             asks: if is_cell { Asks::AllPointlikes } else { Asks::One },
         };
         self.leg.weights_at(engine, self.photon, &arrival)
-    }
-}
-
-/// Where a subpath arrives.
-struct Arrival {
-    place: Asking,
-    n: DVec3,
-    /// Of the flight, from the last vertex or pane.
-    along_m: f64,
-    direction: DVec3,
-    cos: f64,
-    asks: Asks,
-}
-
-/// Which lights a place asks for light.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Asks {
-    /// A specular surface.
-    Nothing,
-    /// One of each kind.
-    One,
-    /// A cell: every light without extent.
-    AllPointlikes,
-}
-
-impl Arrival {
-    /// From an emitting facet over mirrors: how densely its image is asked for here, over the
-    /// density of the photon.
-    fn of_image<S: Spectrum>(
-        &self,
-        engine: &Engine<'_, '_, S>,
-        photon: &Photon,
-        way: &MirroredWay<S>,
-    ) -> Option<f64> {
-        let emission = Emission::new(engine, photon);
-        let left_from = EmitterPlace { facet: emission.facet, position: emission.position };
-        let pdf_m2 = way.asked_of_light_m2(engine.context, self.place, left_from)?;
-        let distance_m = way.distance_m(self.along_m);
-        let per_m2 = emission.per_m2_sr * self.cos * way.kept();
-        Some(product(pdf_m2, distance_m * distance_m / per_m2))
-    }
-
-    /// Straight from the light of a photon, panes between or not: the densities of asking for its
-    /// light here, and of running into it, over that of the photon.
-    fn of_photon<S: Spectrum>(
-        &self,
-        engine: &Engine<'_, '_, S>,
-        photon: &Photon,
-        distance_m: f64,
-    ) -> SubpathWeights {
-        let Self { place, n, direction, cos, asks, .. } = *self;
-        let Engine { context, sources, .. } = engine;
-        let (lights, position) = (&context.lights, place.position);
-        let asks_for = asks != Asks::Nothing;
-        match photon.kind {
-            LightKind::Pointlike(_) | LightKind::Luminaire(_) if !asks_for => {
-                SubpathWeights::default()
-            }
-            LightKind::Pointlike(light) => {
-                let both = place.side.is_none();
-                let lx = lights.pointlikes.illuminance_lx(light, position, n, both);
-                let choice = match asks {
-                    Asks::AllPointlikes => 1.0,
-                    Asks::Nothing | Asks::One => lights.pointlikes.probability(light, place),
-                };
-                SubpathWeights::new(choice / (sources.per_lm(photon.number) * lx), 0.0)
-            }
-            LightKind::Luminaire(light) => {
-                let own = photon.place.as_ref().and_then(|on_shape| {
-                    lights.area_luminaires.incidence(light, on_shape, position, |_| cos)
-                });
-                let Some(incidence) = own else { return SubpathWeights::default() };
-                let choice = lights.area_luminaires.probability(light, place);
-                let photons_m2 = sources.per_lm(photon.number) * incidence.illuminance_lx;
-                SubpathWeights::new(choice / photons_m2, 0.0)
-            }
-            LightKind::Emitters => {
-                let emission = Emission::new(engine, photon);
-                let asked = EmitterPlace { facet: emission.facet, position: emission.position };
-                let emitters = lights.emitters.as_ref().filter(|_| asks_for);
-                let pdf_m2 = emitters.map_or(0.0, |it| it.pdf_m2(&context.world, place, asked));
-                let square_m2 = distance_m * distance_m;
-                let vcm = product(pdf_m2, square_m2 / (emission.per_m2_sr * cos));
-                SubpathWeights::new(vcm, emission.cos / emission.per_m2_sr / cos)
-            }
-            LightKind::WayIn(_) => {
-                let of_sun = engine.is_of_sun(photon);
-                let per_m2 = sources.pdf_line(position, direction, of_sun) * cos;
-                let outside = lights.outside.as_ref().filter(|_| asks_for);
-                let asked_sr = outside.map_or(0.0, |outside: &OutsideLight<'_>| match of_sun {
-                    true => outside.sun_pdf_sr(-direction),
-                    false => outside.pdf_sr(place, -direction),
-                });
-                SubpathWeights::new(product(asked_sr, per_m2.recip()), per_m2.recip())
-            }
-        }
-    }
-}
-
-/// How a photon left an emitting facet.
-struct Emission {
-    facet: u32,
-    position: DVec3,
-    cos: f64,
-    per_m2_sr: f64,
-}
-
-impl Emission {
-    fn new<S: Spectrum>(engine: &Engine<'_, '_, S>, photon: &Photon) -> Self {
-        let (from, direction) = (photon.emission.from, photon.emission.direction);
-        let facet = from.facet().expect("it left a facet");
-        let on = &engine.context.world.facets[facet as usize];
-        let cos = on.front_normal.dot(direction);
-        let per_m2_sr = engine.sources.of_emitters_per_lm() * on.emitted_cd_m2 * cos;
-        Self { facet, position: from.position(), cos, per_m2_sr }
     }
 }
 

@@ -51,6 +51,7 @@
 //!
 //! Read on at `unit`, which traces all of this for some indices, and `estimator`.
 
+mod arrival;
 mod boxes;
 mod caps;
 mod counters;
