@@ -2,6 +2,8 @@
 
 use crate::dozen_scenes::glass_ball;
 use crate::images::add_panel;
+use crate::materials::conductor;
+use crate::mirrored_area_lights::{Panel, add_light};
 use crate::scenes::{all_walls_emit, diffuse, level_grid, mirror, point_light, points, room};
 use glam::DVec3;
 use quasilux_scene::light::AreaLight;
@@ -76,6 +78,25 @@ fn it_agrees_with_paths_and_photons() {
         luminance_cd_m2: 50.0,
     }));
     agree("panel", &panel, [1 << 9, 1 << 12], EstimatorKind::Path);
+}
+
+/// A panel of half a metre that faces a wall of a mirror, and a wall of metal: all are asked for, met,
+/// landed on and joined to, so weights that do not add up to one are seen.
+#[test]
+fn weights_add_up_between_mirrors_and_metal() {
+    let mut scene = furnished();
+    scene.lights.truncate(1);
+    for (wall, bsdf) in [mirror(0.9), conductor(0.8, 0.25)].into_iter().enumerate() {
+        scene.materials.push(Material { name: format!("wall {wall}"), bsdf });
+        scene.mesh.material_of[2 * wall..2 * wall + 2].fill(1 + wall as u32);
+    }
+    let corner = DVec3::new(1.8, 1.0, 1.2);
+    add_light(&mut scene, Panel { corner, u: DVec3::Y * 0.5, v: DVec3::new(0.2, 0.0, 0.5) });
+    let mut cells = scene.clone();
+    scene.sensors.push(points("points", &PLACES));
+    agree("points", &scene, [1 << 11, 1 << 13], EstimatorKind::Path);
+    cells.sensors = vec![level_grid(DVec3::new(0.2, 0.2, 0.7), [3.6, 2.6], [3, 2])];
+    agree("cells", &cells, [1 << 11, 1 << 19], EstimatorKind::Photon);
 }
 
 /// Light of a point through a ball of glass comes to cells by photons alone.
