@@ -49,7 +49,7 @@ def blocks_traced(caplog: pytest.LogCaptureFixture) -> int:
 
 @pytest.mark.parametrize(
     ("estimator", "samples"),
-    [("auto", 1 << 9), ("path", 1 << 9), ("photon", 1 << 17), ("bidirectional", 1 << 10)],
+    [("auto", 1 << 9), ("path", 1 << 9), ("photon", 1 << 17), ("bidirectional", 1 << 8)],
 )
 def test_results_have_the_bits_of_one_process(
     cluster: None, caplog: pytest.LogCaptureFixture, estimator: Any, samples: int

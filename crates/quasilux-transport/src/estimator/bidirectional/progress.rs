@@ -16,6 +16,8 @@ const TARGETS: usize = 4096;
 /// Paths between two words to the observer, about, and units at least.
 const ROUND: u64 = 1 << 17;
 const UNITS: u64 = 32;
+/// Plain paths that take about as long as one with its joins and its share of the light subpaths.
+const PLAIN_PATHS: u64 = 4;
 
 /// All units between two checkpoints: blocks of indices, one after the other, each in all
 /// replicates, each for all growing targets.
@@ -99,7 +101,7 @@ impl<S: Spectrum> BidirectionalEstimator<'_, S> {
         let progress = PathProgress { samples, coming, begins, ends };
         let frame = || BlockFrame::Bidirectional { progress };
         let sums = self.growing.len().min(TARGETS) as u64;
-        let size = BlockSize { paths: self.paths_of_a_unit(), sums };
+        let size = BlockSize { paths: self.paths_of_a_unit() * PLAIN_PATHS, sums };
         let blocks = watch.blocks(frame, self.done..row.len(), size)?;
         Some(watch.distribute(&blocks, &mut |from| {
             let (first, found): (u64, Vec<UnitSums>) = (from.value()?, from.value()?);
