@@ -87,7 +87,8 @@ fn case() -> String {
     let mut text = "# Written by `cargo xtask octant`.\nname = \"mirror octant\"\n\
         source = \"Voloboy, Dmitriev, Kopylov (2003), table 3; closed form: eight images, and 8 I \
         a / (1 - a) indirect\"\n\
-        project = \"../scenes/octant.toml\"\nestimators = [\"path\", \"selected\", \"bidirectional\"]\n\
+        project = \"../scenes/octant.toml\"\n\
+        estimators = [\"path\", \"selected\", \"bidirectional\"]\n\
         rel_tol = { bidirectional = 0.01 }\n"
         .to_owned();
     for (point, direction) in DIRECTIONS.into_iter().enumerate() {

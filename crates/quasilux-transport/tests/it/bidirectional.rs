@@ -80,8 +80,8 @@ fn it_agrees_with_paths_and_photons() {
     agree("panel", &panel, [1 << 9, 1 << 12], EstimatorKind::Path);
 }
 
-/// A panel of half a metre that faces a wall of a mirror, and a wall of metal: all are asked for, met,
-/// landed on and joined to, so weights that do not add up to one are seen.
+/// A panel of half a metre that faces a wall of a mirror, and a wall of metal: all are asked for,
+/// met, landed on and joined to, so weights that do not add up to one are seen.
 #[test]
 fn weights_add_up_between_mirrors_and_metal() {
     let mut scene = furnished();

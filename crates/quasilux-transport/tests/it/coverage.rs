@@ -4,8 +4,8 @@
 //! light is known to 1e-5, with only eight replicates, so that half-widths are noisy and runs stop
 //! at different looks. The 95 % interval must cover the truth in at least 92.83 % of the 960 cases:
 //! were they independent, fewer would come once in 1000 choices of the seeds; and in at least 90.3
-//! % of the 240 cases of each way, by the same measure for four of them. Intervals that are 30 % too
-//! narrow cover about 89 %; the test shows that it would notice them.
+//! % of the 240 cases of each way, by the same measure for four of them. Intervals that are 30 %
+//! too narrow cover about 89 %; the test shows that it would notice them.
 
 use crate::estimators::PATH_ESTIMATORS;
 use crate::scenes::diffuse_cube;

@@ -35,6 +35,7 @@ pub(super) struct Caps {
 }
 
 /// The light of one kind of lights.
+#[derive(Clone, Copy)]
 struct Kind {
     /// The most that a photon stands for, in lm.
     flux_lm: f64,
@@ -181,54 +182,40 @@ fn kinds<S: Spectrum>(engine: &Engine<'_, '_, S>, surfaces: &Surfaces<'_, S>) ->
     let sun_lx = outside.map_or(0.0, |outside| outside.sun_brightness()[1]);
     let never = f64::INFINITY;
     let images_hide = context.hides.is_some();
-    let all = [
-        Kind {
-            flux_lm: pointlikes_lm,
-            eye_lx: surfaces.lit_by_pointlikes(engine),
-            met_lx: never,
-            eye_samples: None,
-            straight_lx: None,
-            is_hidden_by_mirrors: images_hide,
-            found_by: FoundBy::Photons,
-        },
-        Kind {
-            flux_lm: luminaires_lm,
-            eye_lx: never,
-            met_lx: never,
-            eye_samples: None,
-            straight_lx: Some(never),
-            is_hidden_by_mirrors: true,
-            found_by: FoundBy::Photons,
-        },
-        Kind {
-            flux_lm: emitters_lm,
-            eye_lx: largest_lx,
-            met_lx: largest_lx,
-            eye_samples: Some(samples_at_emitters(&context.world)),
-            straight_lx: Some(largest_lx),
-            is_hidden_by_mirrors: true,
-            found_by: engine.emitters_found_by,
-        },
-        Kind {
-            flux_lm: sky_lm,
-            eye_lx: sky_lx,
-            met_lx: sky_lx,
-            // Whoever meets the sky is gone.
-            eye_samples: Some(1.0),
-            straight_lx: Some(sky_lx),
-            is_hidden_by_mirrors: true,
-            found_by: engine.sky_found_by,
-        },
-        Kind {
-            flux_lm: sun_lm,
-            eye_lx: PI * surfaces.peaks.largest_sr() * sun_lx,
-            met_lx: never,
-            eye_samples: None,
-            straight_lx: Some(sun_lx),
-            is_hidden_by_mirrors: true,
-            found_by: FoundBy::Photons,
-        },
-    ];
+    let lamps = Kind {
+        flux_lm: pointlikes_lm,
+        eye_lx: surfaces.lit_by_pointlikes(engine),
+        met_lx: never,
+        eye_samples: None,
+        straight_lx: None,
+        is_hidden_by_mirrors: images_hide,
+        found_by: FoundBy::Photons,
+    };
+    let hidden = Kind { is_hidden_by_mirrors: true, ..lamps };
+    let luminaires =
+        Kind { flux_lm: luminaires_lm, eye_lx: never, straight_lx: Some(never), ..hidden };
+    let emitters = Kind {
+        flux_lm: emitters_lm,
+        eye_lx: largest_lx,
+        met_lx: largest_lx,
+        eye_samples: Some(samples_at_emitters(&context.world)),
+        straight_lx: Some(largest_lx),
+        found_by: engine.emitters_found_by,
+        ..hidden
+    };
+    let sky = Kind {
+        flux_lm: sky_lm,
+        eye_lx: sky_lx,
+        met_lx: sky_lx,
+        // Whoever meets the sky is gone.
+        eye_samples: Some(1.0),
+        straight_lx: Some(sky_lx),
+        found_by: engine.sky_found_by,
+        ..hidden
+    };
+    let scattered_lx = PI * surfaces.peaks.largest_sr() * sun_lx;
+    let sun = Kind { flux_lm: sun_lm, eye_lx: scattered_lx, straight_lx: Some(sun_lx), ..hidden };
+    let all = [lamps, luminaires, emitters, sky, sun];
     all.into_iter().filter(|kind| kind.flux_lm > 0.0).collect()
 }
 

@@ -26,8 +26,8 @@
 //! [`crate::lights::Lights::ways_in`]. Vertices of mirrors and glass are joined to nothing. Panes
 //! that let light straight through are no vertices: the edge goes on behind them, and what they
 //! reflect of it counts in no density. Light of lamps without extent is computed at points, and
-//! over the mirrors that show it there. Surfaces ask for it over plane mirrors as well (`lights::images`),
-//! and all vertices for emitting facets (`mirrored_way`).
+//! over the mirrors that show it there. Surfaces ask for it over plane mirrors as well
+//! (`lights::images`), and all vertices for emitting facets (`mirrored_way`).
 //!
 //! A photon counts as one for each eye path in weights, however many there are, but where the last
 //! surface sends much into few directions: the little that it blurs, and the noise of photons,

@@ -1,8 +1,9 @@
 //! K: how many samples a subpath has in a set of paths at most, on average, given that it has one.
 //!
-//! A subpath that is at a surface goes on with probability s at most, so n vertices follow, counting
-//! it, with `n <= 1 + s n'` of the next. Where the surfaces with the largest s lie in one plane, and
-//! nothing mirrors, the next is another: with r the largest s of all others, `n <= 1 + s (1 + r n)`.
+//! A subpath that is at a surface goes on with probability s at most, so n vertices follow,
+//! counting it, with `n <= 1 + s n'` of the next. Where the surfaces with the largest s lie in one
+//! plane, and nothing mirrors, the next is another: with r the largest s of all others, `n <= 1 + s
+//! (1 + r n)`.
 
 use crate::spectrum::Spectrum;
 use crate::world::{Facet, World};

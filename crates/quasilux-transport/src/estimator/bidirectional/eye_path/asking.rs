@@ -69,8 +69,8 @@ impl<S: Spectrum> EyePath<'_, S> {
         self.ask(sample.map(|it| eye_vertex.beside_landings(it, per_lm, pdf)), eye_vertex, work);
     }
 
-    /// Asks for the light of lights without extent in mirrors: of all images, or of one for several,
-    /// which is no part of weights.
+    /// Asks for the light of lights without extent in mirrors: of all images, or of one for
+    /// several, which is no part of weights.
     pub(super) fn sample_direct_images(
         &mut self,
         engine: &Engine<'_, '_, S>,
