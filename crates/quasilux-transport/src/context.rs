@@ -1,12 +1,14 @@
 //! Everything that stays the same while light moves.
 
 use crate::lights::Lights;
-use crate::lights::images::{SpecularImages, UnshownWay};
+use crate::lights::images::{ImageQuery, SpecularImages, UnshownWay};
 use crate::prepared::PreparedScene;
 use crate::purpose::{Purpose, PurposeRecorder};
 use crate::settings::{EstimatorKind, Settings};
 use crate::spectrum::Spectrum;
-use crate::world::World;
+use crate::world::vertex::{Surface, Vertex};
+use crate::world::{Interaction, World};
+use glam::DVec3;
 use quasilux_bvh::SimdLevel;
 use quasilux_sampling::{PointSet, Sampler, Sequence, stream_key};
 
@@ -226,6 +228,28 @@ impl<'a, S: Spectrum> Context<'a, S> {
     pub(crate) fn shows_emitters_past_specular(&self) -> bool {
         let is_past_panes = self.world.has_panes() && self.lights.emitters.is_some();
         is_past_panes || self.images.show_emitters()
+    }
+
+    /// The question of `who` for the light that comes to a vertex by images.
+    pub(crate) fn image_query<'q>(
+        &'q self,
+        who: u32,
+        vertex: &'q Vertex<'q, S>,
+    ) -> ImageQuery<'q, S> {
+        ImageQuery { world: &self.world, pointlikes: &self.lights.pointlikes, who, vertex }
+    }
+
+    /// The illuminance in lx that an image of a lamp gives where a photon lands that came in this
+    /// direction, as if nothing stood in the path; `None` where no vertex there asks it.
+    pub(crate) fn landing_of_image_lx(
+        &self,
+        image: u32,
+        at: &Interaction,
+        direction: DVec3,
+    ) -> Option<f64> {
+        let surface = Surface::new(&self.world, at, direction);
+        let vertex = &Vertex::on(&self.world, at, &surface, S::white());
+        self.images.illuminance_lx(&self.image_query(0, vertex), image)
     }
 
     /// The point set of a trial: a Halton sequence where the run has a fixed number of points,

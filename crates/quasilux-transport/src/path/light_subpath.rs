@@ -7,7 +7,7 @@
 use crate::bsdf::{Bsdf, TransportMode};
 use crate::context::Context;
 use crate::cutoff::{Gain, MAX_EVENTS};
-use crate::lights::images::{ImageQuery, LightPathClass, Links};
+use crate::lights::images::LightPathClass;
 use crate::lights::{Asking, Emission, Emitted, EmitterPlace};
 use crate::path::russian_roulette::{CERTAIN_BOUNCES, russian_roulette_factor};
 use crate::path::subpath_weights::{SubpathWeights, product};
@@ -236,14 +236,12 @@ impl<S: Spectrum> LightSubpath<'_, S> {
     /// The density in m^-2 with which light of a point or luminaire lands here over the specular
     /// surfaces that it came by; `None` where no eye subpath asks for that light.
     fn landings_m2(&self, context: &Context<'_, S>, at: &Interaction) -> Option<f64> {
-        let Context { world, lights, images, .. } = context;
+        let Context { world, lights, .. } = context;
         let is_light = |image: u32| image as usize == self.light;
         match self.path_class {
             LightPathClass::Shown(image) if !is_light(image) => {
-                let surface = Surface::new(world, at, self.start.direction);
-                let vertex = &Vertex::on(world, at, &surface, S::white());
-                let query = ImageQuery { world, pointlikes: &lights.pointlikes, who: 0, vertex };
-                Some(images.illuminance_lx(&query, image, &mut Links::default())? / lights.lamps_lm)
+                let lx = context.landing_of_image_lx(image, at, self.start.direction)?;
+                Some(lx / lights.lamps_lm)
             }
             LightPathClass::Shown(_) | LightPathClass::Straight => {
                 let takes_both_sides = world.bsdf(at).transmits();

@@ -3,6 +3,7 @@
 use super::engine::Engine;
 use super::mirrored_way::MirroredWay;
 use super::sources::Photon;
+use crate::context::Context;
 use crate::lights::{Asking, EmitterPlace, LightKind, OutsideLight};
 use crate::path::subpath_weights::{SubpathWeights, product};
 use crate::spectrum::Spectrum;
@@ -41,7 +42,9 @@ impl Arrival {
     ) -> Option<f64> {
         let emission = Emission::new(engine, photon);
         let left_from = EmitterPlace { facet: emission.facet, position: emission.position };
-        let pdf_m2 = way.asked_of_light_m2(engine.context, self.place, left_from)?;
+        let Context { world, images, .. } = engine.context;
+        let planes = way.planes.iter().copied();
+        let pdf_m2 = images.asked_over_m2(world, planes, self.place, left_from)?;
         let distance_m = way.distance_m(self.along_m);
         let per_m2 = emission.per_m2_sr * self.cos * way.kept();
         Some(product(pdf_m2, distance_m * distance_m / per_m2))

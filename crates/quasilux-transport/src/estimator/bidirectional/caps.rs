@@ -43,8 +43,8 @@ struct Kind {
     eye_lx: f64,
     /// Of those that run into it also past mirrors and glass.
     met_lx: f64,
-    /// K of both, where only those that run into it count.
-    eye_samples: Option<f64>,
+    /// K of both.
+    eye_samples: f64,
     /// Of what comes straight to a target, where that is sampled.
     straight_lx: Option<f64>,
     /// Whether nothing but photons finds what comes over specular surfaces alone.
@@ -71,8 +71,8 @@ impl Caps {
             (0..lights.len()).filter_map(|it| IntensityBound::new(lights.get(it)?)).collect();
         let surfaces = Surfaces { world, peaks, tree: BoxTree::new(&boxes), facets, pointlikes };
         let no_bounce = context.max_bounces == Some(0);
-        let kinds = kinds(engine, &surfaces);
         let samples = samples_of_subpaths(world);
+        let kinds = kinds(engine, &surfaces, samples);
         let has_specular = world.has_specular_facets();
         let of_target = |receiver: &Receiver| {
             let joined_sr_m2 = if no_bounce { 0.0 } else { surfaces.joined(receiver) };
@@ -87,10 +87,7 @@ impl Caps {
             f64::INFINITY
         } else {
             let straight = |kind: &Kind| kind.straight_lx.unwrap_or(0.0);
-            let of_kind = |kind: &Kind| {
-                let samples = kind.eye_samples.unwrap_or(samples);
-                straight(kind).max(samples * kind.eye_lx)
-            };
+            let of_kind = |kind: &Kind| straight(kind).max(kind.eye_samples * kind.eye_lx);
             kinds.iter().map(of_kind).fold(0.0, f64::max)
         };
         Self { of_targets_lx, of_eye_lx }
@@ -137,8 +134,7 @@ impl<S: Spectrum> Class<'_, '_, '_, S> {
         let disc = straight_disc / samples;
         let all_photons = plan.photons(receiver, true, kind.found_by) / kind.flux_lm;
         let joined = plan.joined as f64 / (kind.flux_lm * self.joined_sr_m2 * samples);
-        let eye = (kind.eye_lx * kind.eye_samples.unwrap_or(samples)).recip();
-        let met = (kind.met_lx * kind.eye_samples.unwrap_or(samples)).recip();
+        let [eye, met] = [kind.eye_lx, kind.met_lx].map(|lx| (lx * kind.eye_samples).recip());
         let mut largest = 0.0_f64;
         let mut class = |counts: f64| {
             largest = largest.max(if counts > 0.0 { counts.recip() } else { f64::INFINITY });
@@ -172,7 +168,11 @@ impl<S: Spectrum> Class<'_, '_, '_, S> {
 }
 
 /// All kinds of lights that shine.
-fn kinds<S: Spectrum>(engine: &Engine<'_, '_, S>, surfaces: &Surfaces<'_, S>) -> Vec<Kind> {
+fn kinds<S: Spectrum>(
+    engine: &Engine<'_, '_, S>,
+    surfaces: &Surfaces<'_, S>,
+    samples: f64,
+) -> Vec<Kind> {
     let context = engine.context;
     let lights = &context.lights;
     let PhotonFluxes { pointlikes_lm, luminaires_lm, emitters_lm, sky_lm, sun_lm } = engine.fluxes;
@@ -186,7 +186,7 @@ fn kinds<S: Spectrum>(engine: &Engine<'_, '_, S>, surfaces: &Surfaces<'_, S>) ->
         flux_lm: pointlikes_lm,
         eye_lx: surfaces.lit_by_pointlikes(engine),
         met_lx: never,
-        eye_samples: None,
+        eye_samples: samples,
         straight_lx: None,
         is_hidden_by_mirrors: images_hide,
         found_by: FoundBy::Photons,
@@ -198,7 +198,8 @@ fn kinds<S: Spectrum>(engine: &Engine<'_, '_, S>, surfaces: &Surfaces<'_, S>) ->
         flux_lm: emitters_lm,
         eye_lx: largest_lx,
         met_lx: largest_lx,
-        eye_samples: Some(samples_at_emitters(&context.world)),
+        // Those that run into it bound what they find.
+        eye_samples: samples_at_emitters(&context.world, samples),
         straight_lx: Some(largest_lx),
         found_by: engine.emitters_found_by,
         ..hidden
@@ -208,7 +209,7 @@ fn kinds<S: Spectrum>(engine: &Engine<'_, '_, S>, surfaces: &Surfaces<'_, S>) ->
         eye_lx: sky_lx,
         met_lx: sky_lx,
         // Whoever meets the sky is gone.
-        eye_samples: Some(1.0),
+        eye_samples: 1.0,
         straight_lx: Some(sky_lx),
         found_by: engine.sky_found_by,
         ..hidden

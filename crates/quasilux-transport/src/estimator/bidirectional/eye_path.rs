@@ -436,11 +436,12 @@ impl<S: Spectrum> MirroredFrom<S> {
         Some(Self { way, ..self })
     }
 
-    /// `None` without a mirror.
+    /// `None` where no image shows it, or nothing mirrors.
     fn asked(&self, context: &Context<'_, S>, at: &Interaction, cos: f64) -> Option<Asked> {
         let Self { way, asked_from, pdf_sr } = self;
         let asked = EmitterPlace { facet: at.facet, position: at.position };
-        let pdf_m2 = way.asked_of_eye_m2(context, *asked_from, asked)?;
+        let (world, planes) = (&context.world, way.planes.iter().rev().copied());
+        let pdf_m2 = context.images.asked_over_m2(world, planes, *asked_from, asked)?;
         let distance_m = way.distance_m(at.distance_m);
         let inverse_m2 = distance_m * distance_m / (cos * pdf_sr * way.kept());
         Some(Asked { pdf_m2, inverse_m2 })

@@ -10,15 +10,13 @@ use super::mirrored_way::MirroredWay;
 use super::plan::{CONNECTED, FoundBy};
 use super::sources::Photon;
 use crate::bsdf::{Bsdf, BsdfSample, TransportMode};
-use crate::context::Context;
 use crate::cutoff::MAX_EVENTS;
-use crate::lights::images::{ImageQuery, LightPathClass, Links};
+use crate::lights::images::LightPathClass;
 use crate::lights::{Asking, LightKind};
 use crate::path::subpath_weights::SubpathWeights;
 use crate::spectrum::Spectrum;
 use crate::world::flight::Flight;
 use crate::world::frame::Frame;
-use crate::world::vertex::{Surface, Vertex};
 use crate::world::{Interaction, RayOrigin};
 use glam::DVec3;
 use quasilux_bvh::{Hit, RayQuery};
@@ -305,15 +303,11 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
         at: &Interaction,
         bsdf: &Bsdf<S>,
     ) -> Option<f64> {
-        let Context { world, lights, images, .. } = engine.context;
         let LightPathClass::Shown(image) = self.leg.class else { return None };
         if image as usize == self.photon.number || bsdf.is_specular() {
             return None;
         }
-        let surface = Surface::new(world, at, self.direction);
-        let vertex = &Vertex::on(world, at, &surface, S::white());
-        let query = ImageQuery { world, pointlikes: &lights.pointlikes, who: 0, vertex };
-        let lx = images.illuminance_lx(&query, image, &mut Links::default())?;
+        let lx = engine.context.landing_of_image_lx(image, at, self.direction)?;
         Some(engine.sources.per_lm(self.photon.number) * lx)
     }
 }

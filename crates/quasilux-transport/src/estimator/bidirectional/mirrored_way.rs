@@ -3,7 +3,6 @@
 
 use crate::bsdf::Bsdf;
 use crate::context::Context;
-use crate::lights::{Asking, EmitterPlace};
 use crate::spectrum::Spectrum;
 use crate::world::Interaction;
 
@@ -12,7 +11,7 @@ pub(super) struct MirroredWay<S> {
     /// Up to the last of them, in m.
     distance_m: f64,
     /// The planes that they mirror in.
-    planes: Vec<u32>,
+    pub(super) planes: Vec<u32>,
     /// What all of them reflect.
     reflected: S,
 }
@@ -48,42 +47,5 @@ impl<S: Spectrum> MirroredWay<S> {
     /// The part of the photons that pass all mirrors.
     pub(super) fn kept(&self) -> f64 {
         self.reflected.max_channel()
-    }
-
-    /// The density in m^-2 with which a place at its end asks for a point of the facet that it
-    /// began at; `None` without a mirror.
-    pub(super) fn asked_of_light_m2(
-        &self,
-        context: &Context<'_, S>,
-        place: Asking,
-        asked: EmitterPlace,
-    ) -> Option<f64> {
-        self.asked_m2(context, self.planes.iter(), place, asked)
-    }
-
-    /// The same of the place that it began at, which asks for a point of a facet at its end.
-    pub(super) fn asked_of_eye_m2(
-        &self,
-        context: &Context<'_, S>,
-        place: Asking,
-        asked: EmitterPlace,
-    ) -> Option<f64> {
-        self.asked_m2(context, self.planes.iter().rev(), place, asked)
-    }
-
-    fn asked_m2<'p>(
-        &self,
-        context: &Context<'_, S>,
-        mut from_light: impl Iterator<Item = &'p u32>,
-        place: Asking,
-        asked: EmitterPlace,
-    ) -> Option<f64> {
-        if self.planes.is_empty() {
-            return None;
-        }
-        let Context { images, world, .. } = context;
-        let light = images.emitter(world.facets[asked.facet as usize].material)?;
-        let image = from_light.try_fold(light, |image, plane| images.emitter_in(image, *plane));
-        Some(image.map_or(0.0, |image| images.asked_m2(world, image, place, asked)))
     }
 }

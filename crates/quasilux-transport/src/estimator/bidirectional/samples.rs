@@ -27,9 +27,10 @@ pub(super) fn samples_of_subpaths<S: Spectrum>(world: &World<S>) -> f64 {
     (1.0 + most) / (1.0 - most * after)
 }
 
-/// Of eye paths that run into emitting facets: the first of them may send it on.
-pub(super) fn samples_at_emitters<S: Spectrum>(world: &World<S>) -> f64 {
+/// Of eye paths that run into emitting facets: the first of them may send it on, and then it has as
+/// many as all `subpaths`.
+pub(super) fn samples_at_emitters<S: Spectrum>(world: &World<S>, subpaths: f64) -> f64 {
     let emitting = world.facets.iter().filter(|facet| facet.emitted_cd_m2 > 0.0);
     let most = emitting.map(|facet| world.most_kept_by(facet).min(1.0)).fold(0.0, f64::max);
-    1.0 + if most > 0.0 { most * samples_of_subpaths(world) } else { 0.0 }
+    1.0 + if most > 0.0 { most * subpaths } else { 0.0 }
 }

@@ -24,7 +24,7 @@ use crate::spectrum::Spectrum;
 use crate::world::vertex::Vertex;
 use crate::world::visibility::{Receiver, ShadowQueue};
 use crate::world::{Facet, World};
-use chain::UnfoldedPath;
+use chain::{Links, UnfoldedPath};
 use emitters::EmitterImages;
 use glam::DVec3;
 use planes::MirrorPlanes;
@@ -32,7 +32,6 @@ use quasilux_bvh::RayQuery;
 use quasilux_sampling::choose_weights;
 use tree::{Imaged, Images};
 
-pub(crate) use chain::Links;
 pub(crate) use light_path_class::LightPathClass;
 pub(crate) use unshown::UnshownWay;
 
@@ -146,6 +145,20 @@ impl SpecularImages {
     /// The plane that a facet mirrors in, if it is one of the mirrors.
     pub(crate) fn plane_of(&self, facet: u32) -> Option<u32> {
         self.mirrors.of_facet(facet)
+    }
+
+    /// Density in m^-2 with which a place asks for a point of a facet over mirrors in these planes,
+    /// the one next to the facet first; `None` where no image shows it, or nothing mirrors.
+    pub(crate) fn asked_over_m2<S: Spectrum>(
+        &self,
+        world: &World<S>,
+        mut planes: impl Iterator<Item = u32>,
+        place: Asking,
+        asked: EmitterPlace,
+    ) -> Option<f64> {
+        let light = self.emitter(world.facets[asked.facet as usize].material)?;
+        let image = planes.try_fold(light, |image, plane| self.emitter_in(image, plane))?;
+        self.is_mirrored_emitter(image).then(|| self.asked_m2(world, image, place, asked))
     }
 
     /// The area light of this material, as an image over no mirror.
@@ -263,10 +276,8 @@ impl SpecularImages {
         &self,
         query: &ImageQuery<'_, S>,
         image: u32,
-        links: &mut Links,
     ) -> Option<f64> {
-        links.clear();
-        let incidence = self.incidence(query, image, links)?;
+        let incidence = self.incidence(query, image, &mut Links::default())?;
         Some(incidence.reflected_lx())
     }
 

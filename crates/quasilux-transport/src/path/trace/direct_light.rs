@@ -3,7 +3,6 @@
 
 use super::{Path, PathWork};
 use crate::context::Context;
-use crate::lights::images::ImageQuery;
 use crate::lights::{Asking, EmitterPlace, EmitterPoint, Emitters};
 use crate::path::sketch::{ExpectedLights, MAX_LIGHTS, PixelSketch};
 use crate::path::subpath_weights::product;
@@ -53,19 +52,10 @@ impl<S: Spectrum> Path<'_, S> {
             let share = |_: u32, direction: DVec3, lx: f64| {
                 self.weight_beside_landings(vertex, direction, lx / context.lights.lamps_lm)
             };
-            let query = self.image_query(context, vertex);
+            let query = context.image_query(self.number, vertex);
             let PathWork { shadows, images, .. } = work;
             context.images.sample_direct(&query, u, share, images, shadows);
         }
-    }
-
-    fn image_query<'q>(
-        &self,
-        context: &'q Context<'_, S>,
-        vertex: &'q Vertex<'_, S>,
-    ) -> ImageQuery<'q, S> {
-        let Context { world, lights, .. } = context;
-        ImageQuery { world, pointlikes: &lights.pointlikes, who: self.number, vertex }
     }
 
     /// Asks for the light of one point on the area lights.
@@ -112,7 +102,7 @@ impl<S: Spectrum> Path<'_, S> {
         let place = Purpose::AreaLightImage { surface: self.bounces_asked };
         let u = context.draw(&mut self.sampler, place, Sampler::next_2d);
         let beside_sr = self.beside_emitter_samples(context, vertex);
-        let query = self.image_query(context, vertex);
+        let query = context.image_query(self.number, vertex);
         let PathWork { shadows, images, .. } = work;
         context.images.sample_emitters(&query, u, beside_sr, images, shadows);
     }

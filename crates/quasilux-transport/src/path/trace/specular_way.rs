@@ -129,17 +129,13 @@ impl<S: Spectrum> Path<'_, S> {
         at: &Interaction,
     ) -> Option<Asked> {
         let way = self.specular_way.as_ref()?;
-        let facet = context.world.facet(at);
         let pdf_m2 = match &way.passed {
             Passed::Nothing => return None,
             Passed::Panes => self.asked_m2(context, context.lights.emitters.as_ref()?, at),
             Passed::Mirrors(planes) => {
-                let images = &context.images;
                 let asked = EmitterPlace { facet: at.facet, position: at.position };
-                let light = images.emitter(facet.material)?;
-                let mut planes = planes.iter().rev();
-                let image = planes.try_fold(light, |image, plane| images.emitter_in(image, *plane));
-                images.asked_m2(&context.world, image?, self.asked_from?, asked)
+                let (world, planes) = (&context.world, planes.iter().rev().copied());
+                context.images.asked_over_m2(world, planes, self.asked_from?, asked)?
             }
         };
         let distance_m = way.distance_m + at.distance_m;

@@ -3,11 +3,9 @@
 
 use super::{EyePath, EyePaths, EyeWeights};
 use crate::bsdf::TransportMode;
-use crate::context::Context;
 use crate::estimator::bidirectional::engine::Engine;
 use crate::estimator::bidirectional::light_subpath::LightVertex;
 use crate::estimator::bidirectional::plan::{CONNECTED, FoundBy};
-use crate::lights::images::ImageQuery;
 use crate::lights::{Asking, Choice, ChosenPlace, DrawnDirection, EmitterPoint};
 use crate::path::subpath_weights::{of_connection, product};
 use crate::spectrum::Spectrum;
@@ -77,7 +75,7 @@ impl<S: Spectrum> EyePath<'_, S> {
         eye_vertex: &EyeVertex<'_, '_, S>,
         work: &mut EyePaths<S>,
     ) {
-        let Context { world, lights, images, .. } = engine.context;
+        let images = &engine.context.images;
         if images.is_empty() {
             return;
         }
@@ -87,8 +85,7 @@ impl<S: Spectrum> EyePath<'_, S> {
             let to_eye = eye_vertex.to_eye(direction, FoundBy::Photons);
             of_connection(product(landings, to_eye), 0.0)
         };
-        let EyeVertex { vertex, .. } = eye_vertex;
-        let query = ImageQuery { world, pointlikes: &lights.pointlikes, who: self.number, vertex };
+        let query = engine.context.image_query(self.number, eye_vertex.vertex);
         images.sample_direct(&query, u, share, &mut work.images, &mut work.shadows);
     }
 
@@ -158,14 +155,13 @@ impl<S: Spectrum> EyePath<'_, S> {
         eye_vertex: &EyeVertex<'_, '_, S>,
         work: &mut EyePaths<S>,
     ) {
-        let Context { world, lights, images, .. } = engine.context;
+        let images = &engine.context.images;
         if !images.show_emitters() {
             return;
         }
         let u = self.sampler.next_2d();
         let beside_sr = |point: &EmitterPoint| eye_vertex.beside_asked_sr(engine, point);
-        let EyeVertex { vertex, .. } = eye_vertex;
-        let query = ImageQuery { world, pointlikes: &lights.pointlikes, who: self.number, vertex };
+        let query = engine.context.image_query(self.number, eye_vertex.vertex);
         images.sample_emitters(&query, u, beside_sr, &mut work.images, &mut work.shadows);
     }
 
