@@ -229,11 +229,6 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
             path.sample_direct_all_pointlikes(engine, eye_vertex, work);
         }
         path.sample_direct_areas(engine, eye_vertex, work);
-        let weights = EyeWeights(
-            FoundBy::BOTH
-                .map(|found| SubpathWeights::new(engine.plan.photons(receiver, true, found), 0.0)),
-        );
-        path.sample_direct_emitter_images(engine, &EyeVertex { vertex, weights }, work);
         path
     }
 
@@ -273,7 +268,6 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
         self.sample_direct_pointlike(engine, eye_vertex, work);
         self.sample_direct_images(engine, eye_vertex, work);
         self.sample_direct_areas(engine, eye_vertex, work);
-        self.sample_direct_emitter_images(engine, eye_vertex, work);
         self.connect(engine, eye_vertex, work);
         let next = bsdf.sample(wo, at.front, TransportMode::Radiance, &mut self.sampler);
         let Some(next) = next else { return false };
@@ -372,7 +366,12 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
             (None, None) => (0.0, arrived),
         };
         let emission = engine.sources.of_emitters_per_lm() * emitted_cd_m2 * cos;
-        let weights = self.straight(arrived).select(engine.emitters_found_by);
+        let is_all_mirrors = self.mirrored.as_ref().is_some_and(|from| {
+            let mirrors = from.way.planes.len();
+            mirrors > 0 && mirrors == self.vertices as usize
+        });
+        let found_by = if is_all_mirrors { FoundBy::EyePaths } else { engine.emitters_found_by };
+        let weights = self.straight(arrived).select(found_by);
         let weight = weights.of_hit(pdf_m2, emission);
         found.add(self.section, self.bounces, self.beta * (emitted_cd_m2 * weight));
     }

@@ -339,9 +339,9 @@ impl<S: Spectrum> Leg<S> {
 }
 
 impl<S: Spectrum> Passing<'_, S> {
-    /// Who finds its light past narrow surfaces.
+    /// Who finds its light past narrow surfaces: over plane mirrors alone, who asks for images.
     pub(super) fn found_by(&self, engine: &Engine<'_, '_, S>) -> FoundBy {
-        engine.found_by(self.photon)
+        if self.leg.is_asked_for() { FoundBy::EyePaths } else { engine.found_by(self.photon) }
     }
 
     /// Whether it comes straight from a light without an extent, perhaps by mirrors that show it.

@@ -99,6 +99,7 @@ impl<S: Spectrum> EyePath<'_, S> {
         self.sample_direct_luminaire(engine, eye_vertex, work);
         self.sample_direct_emitter(engine, eye_vertex, work);
         self.sample_direct_outside(engine, eye_vertex, work);
+        self.sample_direct_emitter_images(engine, eye_vertex, work);
     }
 
     fn sample_direct_luminaire(
@@ -149,7 +150,7 @@ impl<S: Spectrum> EyePath<'_, S> {
     }
 
     /// Asks for the light of area lights as mirrors show them.
-    pub(super) fn sample_direct_emitter_images(
+    fn sample_direct_emitter_images(
         &mut self,
         engine: &Engine<'_, '_, S>,
         eye_vertex: &EyeVertex<'_, '_, S>,
