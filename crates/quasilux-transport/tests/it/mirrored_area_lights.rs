@@ -96,7 +96,7 @@ pub(crate) fn add_light(scene: &mut Scene, Panel { corner, u, v }: Panel) {
     scene.lights.push(Light::Area(AreaLight { material, triangles, area_m2, luminance_cd_m2 }));
 }
 
-/// By paths, and by bidirectional paths: each point within 4 standard errors and the error of the
+/// By paths, by bidirectional paths whose connections are selected, and by bounded ones: each point within 4 standard errors and the error of the
 /// reference, and known to 1 %.
 pub(crate) fn assert_lx(scene: &Scene, seed: u64, expected_lx: &[f64]) {
     let settings = Settings {
@@ -106,11 +106,13 @@ pub(crate) fn assert_lx(scene: &Scene, seed: u64, expected_lx: &[f64]) {
         seed,
         ..Settings::default()
     };
-    let both: [Estimates; 2] = [
-        simulate(scene, &settings, &mut ()),
-        bidirectional_paths(scene, &settings).expect("nothing is hidden"),
+    let bounded = Settings { estimator: EstimatorKind::Bidirectional, ..settings.clone() };
+    let all: [(&str, Estimates); 3] = [
+        ("paths", simulate(scene, &settings, &mut ())),
+        ("selected", bidirectional_paths(scene, &settings).expect("nothing is hidden")),
+        ("bidirectional", simulate(scene, &bounded, &mut ())),
     ];
-    for (found, estimates) in ["paths", "bidirectional paths"].iter().zip(&both) {
+    for (found, estimates) in &all {
         let rows = &estimates.sensors[0].replicate_lx;
         for (point, &lx) in expected_lx.iter().enumerate() {
             let values: Vec<f64> = rows.iter().map(|row| row[point]).collect();

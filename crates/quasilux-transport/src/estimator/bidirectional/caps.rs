@@ -49,6 +49,7 @@ struct Kind {
     straight_lx: Option<f64>,
     /// Whether nothing but photons finds what comes over specular surfaces alone.
     is_hidden_by_mirrors: bool,
+    is_of_emitters: bool,
     /// Who finds it past narrow surfaces.
     found_by: FoundBy,
 }
@@ -130,8 +131,8 @@ impl<S: Spectrum> Class<'_, '_, '_, S> {
         let &Self { engine, receiver, kind, samples, .. } = self;
         let plan = &engine.plan;
         // Numbers of samples over K and their caps; light that comes straight is met once.
-        let straight_disc = receiver.area_m2 / kind.flux_lm;
-        let disc = straight_disc / samples;
+        let straight_disc = receiver.straight_m2(kind.is_of_emitters) / kind.flux_lm;
+        let disc = receiver.area_m2 / kind.flux_lm / samples;
         let all_photons = plan.photons(receiver, true, kind.found_by) / kind.flux_lm;
         let joined = plan.joined as f64 / (kind.flux_lm * self.joined_sr_m2 * samples);
         let [eye, met] = [kind.eye_lx, kind.met_lx].map(|lx| (lx * kind.eye_samples).recip());
@@ -189,6 +190,7 @@ fn kinds<S: Spectrum>(
         eye_samples: samples,
         straight_lx: None,
         is_hidden_by_mirrors: images_hide,
+        is_of_emitters: false,
         found_by: FoundBy::Photons,
     };
     let hidden = Kind { is_hidden_by_mirrors: true, ..lamps };
@@ -201,6 +203,7 @@ fn kinds<S: Spectrum>(
         // Those that run into it bound what they find.
         eye_samples: samples_at_emitters(&context.world, samples),
         straight_lx: Some(largest_lx),
+        is_of_emitters: true,
         found_by: engine.emitters_found_by,
         ..hidden
     };

@@ -146,10 +146,11 @@ impl Receiver {
             return None;
         }
         let along_m = (self.position - from).dot(self.n) / approach;
-        let radius_m = self.radius_m?;
+        let part = if passing.is_straight_from_emitters() { self.emitters_part } else { 1.0 };
+        let square_m2 = self.radius_m? * self.radius_m? * part;
         let aside = from + direction * along_m - self.position;
         let is_on_way = 0.0 < along_m && along_m < length_m;
-        (is_on_way && aside.length_squared() < radius_m * radius_m).then_some(along_m)
+        (is_on_way && aside.length_squared() < square_m2).then_some(along_m)
     }
 }
 
@@ -174,10 +175,12 @@ fn share<S: Spectrum>(
             (plan.joins(receiver, geometry_m2), is_narrow)
         }
     };
-    let photons = plan.photons(receiver, is_narrow, passing.found_by(engine));
+    let is_of_emitters = passing.is_straight_from_emitters();
+    let part = receiver.straight_m2(is_of_emitters) / receiver.area_m2;
+    let photons = plan.photons(receiver, is_narrow, passing.found_by(engine)) * part;
     let others = weights.times(alone, 1.0).towards(cos * FRAC_1_PI);
     let weight = photons / (photons + others);
-    passing.flux_lm * (weight / (receiver.area_m2 * plan.subpaths as f64))
+    passing.flux_lm * (weight / (receiver.area_m2 * part * plan.subpaths as f64))
 }
 
 /// The sections that follow one of a cell with others of the same grid, in ascending order of

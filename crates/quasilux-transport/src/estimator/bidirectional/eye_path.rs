@@ -222,13 +222,21 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
             bounces_asked: 0,
         };
         // Photons that come straight.
-        let weights = EyeWeights([SubpathWeights::new(receiver.area_m2, 0.0); 2]);
         work.shadows.max_bounces = context.max_bounces.unwrap_or(u32::MAX);
-        let eye_vertex = &EyeVertex { vertex, weights };
+        let beside = |is_of_emitters: bool| EyeVertex {
+            vertex,
+            weights: EyeWeights(
+                [SubpathWeights::new(receiver.straight_m2(is_of_emitters), 0.0); 2],
+            ),
+        };
+        let eye_vertex = &beside(false);
         if receiver.is_cell() {
             path.sample_direct_all_pointlikes(engine, eye_vertex, work);
         }
-        path.sample_direct_areas(engine, eye_vertex, work);
+        path.sample_direct_luminaire(engine, eye_vertex, work);
+        path.sample_direct_emitter(engine, &beside(true), work);
+        path.sample_direct_outside(engine, eye_vertex, work);
+        path.sample_direct_emitter_images(engine, eye_vertex, work);
         path
     }
 
@@ -371,15 +379,18 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
             mirrors > 0 && mirrors == self.vertices as usize
         });
         let found_by = if is_all_mirrors { FoundBy::EyePaths } else { engine.emitters_found_by };
-        let weights = self.straight(arrived).select(found_by);
+        let weights = self.straight(arrived, true).select(found_by);
         let weight = weights.of_hit(pdf_m2, emission);
         found.add(self.section, self.bounces, self.beta * (emitted_cd_m2 * weight));
     }
 
     /// What it weighs where it runs into a light: straight from the start photons take part.
-    fn straight(&self, weights: EyeWeights) -> EyeWeights {
+    fn straight(&self, weights: EyeWeights, is_of_emitters: bool) -> EyeWeights {
         match self.vertices {
-            0 => weights.map(|it| it.times(1.0, self.receiver.area_m2)),
+            0 => {
+                let photons = self.receiver.straight_m2(is_of_emitters);
+                weights.map(|it| it.times(1.0, photons))
+            }
             _ => weights,
         }
     }
@@ -388,7 +399,7 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
     fn add_outside(&self, engine: &Engine<'_, '_, S>, found: &mut SectionSums<'_>) {
         let Some(outside) = &engine.context.lights.outside else { return };
         let (direction, position) = (self.direction, self.from.position());
-        let weights = self.straight(self.weights);
+        let weights = self.straight(self.weights, false);
         let share = |asked_sr: f64, of_sun: bool| {
             let found_by = if of_sun { FoundBy::Photons } else { engine.sky_found_by };
             weights

@@ -349,6 +349,11 @@ impl<S: Spectrum> Passing<'_, S> {
         matches!(self.leg.class, LightPathClass::Shown(_))
     }
 
+    /// Whether it comes straight from an emitting facet.
+    pub(super) fn is_straight_from_emitters(&self) -> bool {
+        matches!((self.leg.last, &self.photon.kind), (LastVertex::Light, LightKind::Emitters))
+    }
+
     /// The distance in m since the last vertex, after this part of the flight.
     pub(super) fn distance_m(&self, along_m: f64) -> f64 {
         self.leg.distance_m + along_m

@@ -29,6 +29,9 @@
 //! over the mirrors that show it there. Surfaces ask for it over plane mirrors as well
 //! (`lights::images`), and all vertices for emitting facets (`mirrored_way`).
 //!
+//! The disc is smaller for light straight from emitting facets near by, whose illuminance changes
+//! over it: its radius is an eighth of the distance of the nearest at most.
+//!
 //! A photon counts as one for each eye path in weights, however many there are, but where the last
 //! surface sends much into few directions: the little that it blurs, and the noise of photons,
 //! would else be a large part of ordinary light.
@@ -63,6 +66,7 @@ mod intensities;
 mod joins;
 mod light_subpath;
 mod mirrored_way;
+mod nearest_emitter;
 mod peaks;
 mod plan;
 mod progress;

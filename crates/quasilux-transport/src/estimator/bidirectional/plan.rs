@@ -6,6 +6,7 @@
 //! is joined to the vertices of some of them: surely where a join gives much, else with a chance in
 //! proportion to it. Joins then cost no more than eye paths do either.
 
+use super::nearest_emitter::EmittingFacets;
 use crate::context::Context;
 use crate::spectrum::Spectrum;
 use crate::stats::targets::Target;
@@ -27,6 +28,9 @@ const MORE_WHERE_SPECULAR: u64 = 4;
 /// The radius of a disc in m, and as a share of the scene's size at most.
 const RADIUS_M: f64 = 0.1;
 const SHARE_OF_SIZE: f64 = 1.0 / 64.0;
+/// The radius of a disc for light straight from emitting facets, as a share of the distance of the
+/// nearest at most: over that distance their illuminance changes.
+const SHARE_OF_DISTANCE: f64 = 0.125;
 /// Directions in which walls are looked for in the plane of a disc.
 const LOOKS: u32 = 64;
 
@@ -79,6 +83,9 @@ pub(super) struct Receiver {
     pub(super) area_m2: f64,
     /// Of a disc.
     pub(super) radius_m: Option<f64>,
+    /// The part of the disc, around the same centre, on which photons count that come straight from
+    /// emitting facets; 1 for cells.
+    pub(super) emitters_part: f64,
     /// Cosines over squared distance, in m^-2, from which on a join is made for certain.
     pub(super) sure_m2: f64,
 }
@@ -87,7 +94,9 @@ impl Plan {
     pub(super) fn new<S: Spectrum>(context: &Context<'_, S>, targets: &[Target]) -> Self {
         let world = &context.world;
         let area_m2: f64 = world.facets.iter().map(|facet| facet.area_m2()).sum();
-        let receivers = targets.iter().map(|it| Receiver::new(context, it, area_m2)).collect();
+        let emitting = EmittingFacets::new(world);
+        let receiver = |it: &Target| Receiver::new(context, it, area_m2, &emitting);
+        let receivers = targets.iter().map(receiver).collect();
         let more = if world.has_specular_facets() { MORE_WHERE_SPECULAR } else { 1 };
         let [least, most] = SUBPATHS;
         let subpaths = (targets.len() as u64 * more).next_power_of_two().clamp(least, most);
@@ -119,7 +128,12 @@ impl Plan {
 }
 
 impl Receiver {
-    fn new<S: Spectrum>(context: &Context<'_, S>, target: &Target, area_m2: f64) -> Self {
+    fn new<S: Spectrum>(
+        context: &Context<'_, S>,
+        target: &Target,
+        area_m2: f64,
+        emitting: &EmittingFacets<'_, S>,
+    ) -> Self {
         let world = &context.world;
         // About one join for each light subpath where its vertices lie evenly.
         let sure_m2 = TAU / area_m2.max(f64::MIN_POSITIVE);
@@ -135,15 +149,24 @@ impl Receiver {
                 });
                 let radius_m = free_m.fold(largest_radius_m(world), f64::min).max(world.hair_m());
                 let area_m2 = PI * radius_m * radius_m;
-                let (target, radius_m) = (*target, Some(radius_m));
-                Self { target, position: from.position(), n, area_m2, radius_m, sure_m2 }
+                let near_m = SHARE_OF_DISTANCE * emitting.distance_m(from.position(), n);
+                let share = (near_m / radius_m).min(1.0);
+                Self {
+                    target: *target,
+                    position: from.position(),
+                    n,
+                    area_m2,
+                    radius_m: Some(radius_m),
+                    emitters_part: share * share,
+                    sure_m2,
+                }
             }
             Target::Cell { grid, cell } => {
                 let area_m2 = GridPlane::new(world, &grid).cell_area_m2();
                 let position = grid.point_in_cell(cell, [0.5; 2]);
-                let n = grid.normal;
-                let radius_m = None;
-                Self { target: *target, position, n, area_m2, radius_m, sure_m2 }
+                let (n, target) = (grid.normal, *target);
+                let (radius_m, emitters_part) = (None, 1.0);
+                Self { target, position, n, area_m2, radius_m, emitters_part, sure_m2 }
             }
         }
     }
@@ -164,6 +187,11 @@ impl Receiver {
     /// The chance of a join, by its cosines over squared distance.
     pub(super) fn join_probability(&self, geometry_m2: f64) -> f64 {
         (geometry_m2 / self.sure_m2).min(1.0)
+    }
+
+    /// The area in m^2 on which photons count that come straight from a light.
+    pub(super) fn straight_m2(&self, is_of_emitters: bool) -> f64 {
+        if is_of_emitters { self.area_m2 * self.emitters_part } else { self.area_m2 }
     }
 
     pub(super) fn is_cell(&self) -> bool {

@@ -102,7 +102,7 @@ impl<S: Spectrum> EyePath<'_, S> {
         self.sample_direct_emitter_images(engine, eye_vertex, work);
     }
 
-    fn sample_direct_luminaire(
+    pub(super) fn sample_direct_luminaire(
         &mut self,
         engine: &Engine<'_, '_, S>,
         eye_vertex: &EyeVertex<'_, '_, S>,
@@ -130,7 +130,7 @@ impl<S: Spectrum> EyePath<'_, S> {
         self.ask(sample.map(|it| eye_vertex.beside_landings(it, per_lm, pdf)), eye_vertex, work);
     }
 
-    fn sample_direct_emitter(
+    pub(super) fn sample_direct_emitter(
         &mut self,
         engine: &Engine<'_, '_, S>,
         eye_vertex: &EyeVertex<'_, '_, S>,
@@ -150,7 +150,7 @@ impl<S: Spectrum> EyePath<'_, S> {
     }
 
     /// Asks for the light of area lights as mirrors show them.
-    fn sample_direct_emitter_images(
+    pub(super) fn sample_direct_emitter_images(
         &mut self,
         engine: &Engine<'_, '_, S>,
         eye_vertex: &EyeVertex<'_, '_, S>,
@@ -166,7 +166,7 @@ impl<S: Spectrum> EyePath<'_, S> {
         images.sample_emitters(&query, u, beside_sr, &mut work.images, &mut work.shadows);
     }
 
-    fn sample_direct_outside(
+    pub(super) fn sample_direct_outside(
         &mut self,
         engine: &Engine<'_, '_, S>,
         eye_vertex: &EyeVertex<'_, '_, S>,
