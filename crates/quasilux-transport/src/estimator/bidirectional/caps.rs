@@ -13,6 +13,7 @@ use super::plan::{FoundBy, Receiver};
 use super::samples::{samples_at_emitters, samples_of_subpaths};
 use super::sources::{PhotonFluxes, SKY_MARGIN};
 use super::supremum::{Bounded, SeenPart, supremum, supremum_over};
+use crate::bsdf::Bsdf;
 use crate::spectrum::Spectrum;
 use crate::stats::targets::Target;
 use crate::stats::unseen::UNSEEN_CONFIDENCE;
@@ -27,11 +28,19 @@ const CHOICE: f64 = 0.9;
 
 /// Bounds of all targets.
 pub(super) struct Caps {
-    /// Of each target, `K W` in lx for one index.
-    of_targets_lx: Vec<f64>,
+    of_targets: Vec<Cap>,
     /// The same of eye paths alone, the same for all targets; infinite where they cannot make all
     /// paths.
     of_eye_lx: f64,
+}
+
+/// Of a target, in lx for one index.
+#[derive(Clone, Copy)]
+struct Cap {
+    /// `K W`.
+    unseen_lx: f64,
+    /// W: the most that a sample of a technique that is used wherever it can be adds.
+    sample_lx: f64,
 }
 
 /// The light of one kind of lights.
@@ -77,13 +86,17 @@ impl Caps {
         let has_specular = world.has_specular_facets();
         let of_target = |receiver: &Receiver| {
             let joined_sr_m2 = if no_bounce { 0.0 } else { surfaces.joined(receiver) };
-            let of_kind = |kind: &Kind| {
+            let largest = |kind: &Kind, samples: f64| {
                 let class = Class { engine, receiver, kind, joined_sr_m2, samples };
                 class.largest(&surfaces, has_specular, no_bounce)
             };
-            kinds.iter().map(of_kind).fold(0.0, f64::max)
+            let none = Cap { unseen_lx: 0.0, sample_lx: 0.0 };
+            kinds.iter().fold(none, |cap, kind| Cap {
+                unseen_lx: cap.unseen_lx.max(largest(kind, samples)),
+                sample_lx: cap.sample_lx.max(largest(&Kind { eye_samples: 1.0, ..*kind }, 1.0)),
+            })
         };
-        let of_targets_lx: Vec<f64> = engine.plan.receivers.par_iter().map(of_target).collect();
+        let of_targets: Vec<Cap> = engine.plan.receivers.par_iter().map(of_target).collect();
         let of_eye_lx = if has_specular {
             f64::INFINITY
         } else {
@@ -91,18 +104,27 @@ impl Caps {
             let of_kind = |kind: &Kind| straight(kind).max(kind.eye_samples * kind.eye_lx);
             kinds.iter().map(of_kind).fold(0.0, f64::max)
         };
-        Self { of_targets_lx, of_eye_lx }
+        Self { of_targets, of_eye_lx }
+    }
+
+    /// Of each target, the most in lx that a sample adds to one index. Nothing is known of samples
+    /// where weights take other densities than those of what is sampled
+    /// ([`Bsdf::survival_pdf_sr`]).
+    pub(super) fn of_samples_lx<S: Spectrum>(&self, world: &World<S>) -> impl Iterator<Item = f64> {
+        let is_measured = world.bsdfs().iter().any(|bsdf| matches!(bsdf, Bsdf::Measured(_)));
+        let most_lx = move |cap: &Cap| if is_measured { f64::INFINITY } else { cap.sample_lx };
+        self.of_targets.iter().map(most_lx)
     }
 
     /// Light in lx at each target by ways on which no sample lay, at most; `trials` are the indices
     /// of each, of all replicates.
     pub(super) fn unseen_lx(&self, trials: impl Fn(usize) -> f64) -> Vec<f64> {
         let most = -libm::log(1.0 - UNSEEN_CONFIDENCE);
-        let of_target = |(target, cap_lx): (usize, &f64)| {
-            let lx = most * cap_lx / trials(target);
+        let of_target = |(target, cap): (usize, &Cap)| {
+            let lx = most * cap.unseen_lx / trials(target);
             if lx.is_nan() { f64::INFINITY } else { lx }
         };
-        self.of_targets_lx.iter().enumerate().map(of_target).collect()
+        self.of_targets.iter().enumerate().map(of_target).collect()
     }
 
     /// The same of the average over targets: an eye path of one of m targets adds an m-th.

@@ -109,6 +109,7 @@ impl Counters {
             };
             let Some(Crossed { section, along_m, tilt }) = crossed else { return };
             let light = share(engine, receivers[section], passing, along_m) * tilt;
+            receivers[section].assert_capped("a photon", light);
             take(Crossing { section, light, bounces: passing.bounces });
         });
     }

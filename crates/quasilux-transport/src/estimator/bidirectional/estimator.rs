@@ -76,11 +76,17 @@ impl<'a, S: Spectrum> BidirectionalEstimator<'a, S> {
             *value_lx = 0.0;
             invalid_points += 1;
         }
-        let engine = Engine::new(context, &targets);
+        let mut engine = Engine::new(context, &targets);
+        let caps = Caps::new(&engine);
+        for (receiver, most_lx) in
+            engine.plan.receivers.iter_mut().zip(caps.of_samples_lx(&context.world))
+        {
+            receiver.most_lx = most_lx;
+        }
         let replicates = settings.effective_replicates();
         let empty = TargetSums::new(context.listed_terms);
         Self {
-            caps: Caps::new(&engine),
+            caps,
             engine,
             scene,
             exact,

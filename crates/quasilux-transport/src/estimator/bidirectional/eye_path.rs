@@ -381,7 +381,9 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
         let found_by = if is_all_mirrors { FoundBy::EyePaths } else { engine.emitters_found_by };
         let weights = self.straight(arrived, true).select(found_by);
         let weight = weights.of_hit(pdf_m2, emission);
-        found.add(self.section, self.bounces, self.beta * (emitted_cd_m2 * weight));
+        let light = self.beta * (emitted_cd_m2 * weight);
+        self.receiver.assert_capped("a facet that was met", light);
+        found.add(self.section, self.bounces, light);
     }
 
     /// What it weighs where it runs into a light: straight from the start photons take part.
@@ -410,12 +412,14 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
         if sky_cd_m2 != 0.0 {
             let asked_sr = self.asked_from.map_or(0.0, |place| outside.pdf_sr(place, direction));
             let light = self.beta * (sky_cd_m2 * share(asked_sr, false));
+            self.receiver.assert_capped("the sky", light);
             found.add(self.section, self.bounces, light);
         }
         let sun_cd_m2 = outside.sun_cd_m2(direction);
         if sun_cd_m2 != 0.0 {
             let asked_sr = self.asked_from.map_or(0.0, |_| outside.sun_pdf_sr(direction));
             let light = self.beta * (sun_cd_m2 * share(asked_sr, true));
+            self.receiver.assert_capped("the sun", light);
             found.add(self.section, self.bounces, light);
         }
     }

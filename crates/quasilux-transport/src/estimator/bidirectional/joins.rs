@@ -93,6 +93,7 @@ impl Join {
         let light = *flux_lm * scattered * lx;
         let is_something = light.luminance() > 0.0 && light.luminance().is_finite();
         if is_something {
+            joiner.receiver.assert_capped("a join", light);
             let ray = joiner.from.shadow_ray(direction, distance_m, at.facet);
             shadows.push_polyline(who, light, bounces + 1, RayQuery::NONE, |rays| rays.push(ray));
         }

@@ -88,6 +88,8 @@ pub(super) struct Receiver {
     pub(super) emitters_part: f64,
     /// Cosines over squared distance, in m^-2, from which on a join is made for certain.
     pub(super) sure_m2: f64,
+    /// The most in lx that a sample adds to one index (`caps`), for assertions.
+    pub(super) most_lx: f64,
 }
 
 impl Plan {
@@ -159,14 +161,22 @@ impl Receiver {
                     radius_m: Some(radius_m),
                     emitters_part: share * share,
                     sure_m2,
+                    most_lx: f64::INFINITY,
                 }
             }
             Target::Cell { grid, cell } => {
                 let area_m2 = GridPlane::new(world, &grid).cell_area_m2();
                 let position = grid.point_in_cell(cell, [0.5; 2]);
-                let (n, target) = (grid.normal, *target);
-                let (radius_m, emitters_part) = (None, 1.0);
-                Self { target, position, n, area_m2, radius_m, emitters_part, sure_m2 }
+                Self {
+                    target: *target,
+                    position,
+                    n: grid.normal,
+                    area_m2,
+                    radius_m: None,
+                    emitters_part: 1.0,
+                    sure_m2,
+                    most_lx: f64::INFINITY,
+                }
             }
         }
     }
@@ -182,6 +192,18 @@ impl Receiver {
             Target::Cell { grid, cell } => grid.point_in_cell(cell, u()),
         };
         world.ray_origin_of_sensor(place, self.n)
+    }
+
+    /// Asserts that a sample adds no more to an index than its caps say.
+    pub(super) fn assert_capped<S: Spectrum>(&self, technique: &str, light: S) {
+        // What is not a number is counted elsewhere.
+        debug_assert!(
+            !(light.luminance() > self.most_lx * (1.0 + 1e-9)),
+            "{technique} adds {} lx at {:?}, at most {} lx were expected",
+            light.luminance(),
+            self.position,
+            self.most_lx
+        );
     }
 
     /// The chance of a join, by its cosines over squared distance.

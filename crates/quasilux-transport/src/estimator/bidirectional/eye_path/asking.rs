@@ -213,6 +213,7 @@ impl<S: Spectrum> EyePath<'_, S> {
         work: &mut EyePaths<S>,
     ) {
         if let Some(sample) = sample {
+            self.receiver.assert_capped("a light that was asked", sample.light);
             work.shadows.ask(self.number, eye_vertex.vertex, &sample);
         }
     }
