@@ -59,6 +59,10 @@ impl<S: Spectrum> Conductor<S> {
         Self { reflectance, ggx, full, rising, multiple_scattering, repeated }
     }
 
+    pub(super) fn alpha(&self) -> f64 {
+        self.ggx.alpha()
+    }
+
     /// The share of light from `wo` that goes on.
     pub(super) fn albedo(&self, wo: DVec3) -> S {
         self.single_albedo(wo.z) + self.repeated * (1.0 - self.full.at(wo.z))

@@ -330,6 +330,20 @@ impl<S: Spectrum> Bsdf<S> {
         }
     }
 
+    /// The width of the slopes of its facets, where it has facets.
+    pub(crate) fn facet_alpha(&self) -> Option<f64> {
+        match self {
+            Self::Conductor(conductor) => Some(conductor.alpha()),
+            Self::Plastic(plastic) => Some(plastic.alpha()),
+            Self::Diffuse(_)
+            | Self::Mirror(_)
+            | Self::Translucent(_)
+            | Self::Dielectric(_)
+            | Self::Pane(_)
+            | Self::Measured(_) => None,
+        }
+    }
+
     /// Density in sr^-1 with which [`Self::sample`] draws `wi` for a path; 0 for mirror directions.
     pub(crate) fn pdf_sr(&self, wo: DVec3, wi: DVec3, front: bool) -> f64 {
         match self {

@@ -42,6 +42,10 @@ impl<S: Spectrum> Plastic<S> {
         Self { reflectance, eta, ggx, coat }
     }
 
+    pub(super) fn alpha(&self) -> f64 {
+        self.ggx.alpha()
+    }
+
     /// The share of light from `wo` that goes on.
     pub(super) fn albedo(&self, wo: DVec3) -> S {
         let coat = self.coat.at(wo.z);

@@ -81,6 +81,19 @@ impl BoxTree {
         }
     }
 
+    /// The largest value of the things in each box, by its number.
+    pub(super) fn largest_in(&self, value: impl Fn(u32) -> f64) -> Vec<f64> {
+        let mut largest = vec![0.0; self.nodes.len()];
+        // Children have larger numbers.
+        for number in (0..self.nodes.len()).rev() {
+            largest[number] = match self.inside(number as u32) {
+                Inside::Boxes([a, b]) => f64::max(largest[a as usize], largest[b as usize]),
+                Inside::Things(things) => things.iter().map(|it| value(*it)).fold(0.0, f64::max),
+            };
+        }
+        largest
+    }
+
     /// Tells of all things whose box a segment meets.
     pub(super) fn on_segment(
         &self,

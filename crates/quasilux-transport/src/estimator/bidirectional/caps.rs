@@ -5,26 +5,22 @@
 //! sample met goes with `K W`, 1 over the sum of `n_i / (K_i cap_i)` over the techniques that can
 //! make all of the class (`docs/unseen.md`).
 
-use super::boxes::BoxTree;
+#[cfg(test)]
+mod search;
+mod surfaces;
+
 use super::engine::Engine;
-use super::intensities::IntensityBound;
-use super::peaks::Peak;
 use super::plan::{FoundBy, Receiver};
 use super::samples::{samples_at_emitters, samples_of_subpaths};
 use super::sources::{PhotonFluxes, SKY_MARGIN};
-use super::supremum::{Bounded, SeenPart, supremum, supremum_over};
 use crate::bsdf::Bsdf;
 use crate::spectrum::Spectrum;
 use crate::stats::targets::Target;
 use crate::stats::unseen::UNSEEN_CONFIDENCE;
 use crate::world::World;
-use glam::DVec3;
 use rayon::prelude::*;
-use std::f64::consts::{FRAC_1_PI, PI};
-
-/// A choice among lights in proportion to what they give takes one with no less than this part of
-/// its share ([`crate::lights::PointLikes::choose`]).
-const CHOICE: f64 = 0.9;
+use std::f64::consts::PI;
+use surfaces::Surfaces;
 
 /// Bounds of all targets.
 pub(super) struct Caps {
@@ -67,19 +63,7 @@ impl Caps {
     pub(super) fn new<S: Spectrum>(engine: &Engine<'_, '_, S>) -> Self {
         let context = engine.context;
         let world = &context.world;
-        let corners = |number: usize| {
-            let [a, b, c] = world.facets[number].corners();
-            [a.min(b).min(c), a.max(b).max(c)]
-        };
-        let peaks = Peaks::new(world);
-        let scatters =
-            (0..world.facets.len()).filter(|it| peaks.at_facet(world, *it as u32).value_sr > 0.0);
-        let facets: Vec<usize> = scatters.collect();
-        let boxes: Vec<[DVec3; 2]> = facets.iter().map(|it| corners(*it)).collect();
-        let lights = &context.lights.pointlikes;
-        let pointlikes =
-            (0..lights.len()).filter_map(|it| IntensityBound::new(lights.get(it)?)).collect();
-        let surfaces = Surfaces { world, peaks, tree: BoxTree::new(&boxes), facets, pointlikes };
+        let surfaces = Surfaces::new(context);
         let no_bounce = context.max_bounces == Some(0);
         let samples = samples_of_subpaths(world);
         let kinds = kinds(engine, &surfaces, samples);
@@ -239,244 +223,8 @@ fn kinds<S: Spectrum>(
         found_by: engine.sky_found_by,
         ..hidden
     };
-    let scattered_lx = PI * surfaces.peaks.largest_sr() * sun_lx;
+    let scattered_lx = outside.map_or(0.0, |outside| surfaces.lit_by_sun(outside));
     let sun = Kind { flux_lm: sun_lm, eye_lx: scattered_lx, straight_lx: Some(sun_lx), ..hidden };
     let all = [lamps, luminaires, emitters, sky, sun];
     all.into_iter().filter(|kind| kind.flux_lm > 0.0).collect()
-}
-
-/// Of each material.
-struct Peaks(Vec<Peak>);
-
-impl Peaks {
-    fn new<S: Spectrum>(world: &World<S>) -> Self {
-        Self(world.bsdfs().iter().map(Peak::new).collect())
-    }
-
-    fn at_facet<S: Spectrum>(&self, world: &World<S>, facet: u32) -> Peak {
-        self.0[world.facets[facet as usize].material as usize]
-    }
-
-    /// Of values with a cosine.
-    fn largest_sr(&self) -> f64 {
-        self.0.iter().map(|peak| peak.with_cosine_sr).fold(0.0, f64::max)
-    }
-}
-
-/// The facets that scatter.
-struct Surfaces<'w, S> {
-    world: &'w World<S>,
-    peaks: Peaks,
-    tree: BoxTree,
-    facets: Vec<usize>,
-    /// The lights without extent.
-    pointlikes: Vec<IntensityBound>,
-}
-
-impl<S: Spectrum> Surfaces<'_, S> {
-    /// At least the largest of what a lumen at a light vertex gives to a target that it is joined
-    /// to, over the chance of that, in sr^-1 m^-2.
-    fn joined(&self, receiver: &Receiver) -> f64 {
-        let corners = receiver.corners();
-        let value = JoinBound { surfaces: self, receiver, corners };
-        let at_most = supremum(self.world, &self.tree, &self.facets, &value);
-        let scattered_sr = self.peaks.0.iter().map(|peak| peak.value_sr).fold(0.0, f64::max);
-        at_most.max(scattered_sr * receiver.sure_m2)
-    }
-
-    /// At least the largest of what the lights without extent give, times pi and the scattering
-    /// function, over the chance of asking; infinite where a table chooses.
-    fn lit_by_pointlikes(&self, engine: &Engine<'_, '_, S>) -> f64 {
-        if engine.context.lights.pointlikes.are_many() {
-            return f64::INFINITY;
-        }
-        let lights = &self.pointlikes;
-        let choice = if lights.len() > 1 { CHOICE } else { 1.0 };
-        let value = Lit { surfaces: Some(self), lights };
-        supremum(self.world, &self.tree, &self.facets, &value) / choice
-    }
-
-    /// At least the most that a light without extent gives on a cell.
-    fn on_cell(&self, receiver: &Receiver) -> f64 {
-        let [a, b, c, d] = receiver.corners();
-        let parts = [[a, b, c], [b, d, c]].map(|corners| SeenPart { corners, facet: 0 });
-        let of_light = |lights: &[IntensityBound]| {
-            supremum_over(parts.into_iter(), &Lit::<S> { surfaces: None, lights })
-        };
-        self.pointlikes.chunks(1).map(of_light).fold(0.0, f64::max)
-    }
-}
-
-/// What lights give to surfaces, in lx.
-struct Lit<'s, 'w, S> {
-    /// Whose facets they are, and how much they send on; `None` for illuminances alone.
-    surfaces: Option<&'s Surfaces<'w, S>>,
-    lights: &'s [IntensityBound],
-}
-
-impl<S: Spectrum> Lit<'_, '_, S> {
-    fn peak(&self, part: &SeenPart) -> Peak {
-        let value_sr = FRAC_1_PI;
-        self.surfaces.map_or(
-            Peak { value_sr, with_cosine_sr: value_sr, is_lambertian: true },
-            |surfaces| {
-                surfaces.peaks.at_facet(surfaces.world, surfaces.facets[part.facet as usize] as u32)
-            },
-        )
-    }
-
-    fn value(&self, part: &SeenPart, lx: impl Fn(&IntensityBound, f64) -> f64) -> f64 {
-        let [a, b, c] = part.corners;
-        let n = (b - a).cross(c - a).normalize_or_zero();
-        let peak = self.peak(part);
-        let of_light = |light: &IntensityBound| {
-            let height_m = n.dot(light.position - a).abs();
-            lx(light, if peak.is_lambertian { height_m } else { f64::INFINITY })
-        };
-        PI * peak.with_cosine_sr * self.lights.iter().map(of_light).sum::<f64>()
-    }
-}
-
-impl<S: Spectrum> Bounded for Lit<'_, '_, S> {
-    fn over_box(&self, low: DVec3, high: DVec3) -> f64 {
-        let (centre, radius_m) = (0.5 * (low + high), 0.5 * (high - low).length());
-        let peaks = self.surfaces.map_or(FRAC_1_PI, |surfaces| surfaces.peaks.largest_sr());
-        let of_light = |light: &IntensityBound| {
-            let distance_m = (light.position - light.position.clamp(low, high)).length();
-            let way = centre - light.position;
-            most_cd(light, way, radius_m) / (distance_m * distance_m)
-        };
-        PI * peaks * self.lights.iter().map(of_light).sum::<f64>()
-    }
-
-    fn over_part(&self, part: &SeenPart) -> f64 {
-        let (centre, radius_m) = (part.centre(), part.radius_m());
-        self.value(part, |light, height_m| {
-            if height_m == 0.0 {
-                return 0.0;
-            }
-            let distance_m = part.distance_m(light.position);
-            let cos = (height_m / distance_m).min(1.0);
-            most_cd(light, centre - light.position, radius_m) * cos / (distance_m * distance_m)
-        })
-    }
-
-    fn at_centre(&self, part: &SeenPart) -> f64 {
-        let centre = part.centre();
-        self.value(part, |light, height_m| {
-            let way = centre - light.position;
-            let square_m2 = way.length_squared();
-            let cos = (height_m / square_m2.sqrt()).min(1.0);
-            let cd = light.most_cd(way.normalize_or_zero(), 0.0);
-            if square_m2 > 0.0 { cd * cos / square_m2 } else { 0.0 }
-        })
-    }
-}
-
-/// At least the intensity toward a ball of this radius whose centre is this way.
-fn most_cd(light: &IntensityBound, way: DVec3, radius_m: f64) -> f64 {
-    let distance_m = way.length();
-    let angle_rad = if radius_m < distance_m { libm::asin(radius_m / distance_m) } else { PI };
-    light.most_cd(way.normalize_or(DVec3::Z), angle_rad)
-}
-
-/// What a lumen at a light vertex gives to a target, in sr^-1 m^-2.
-struct JoinBound<'s, 'w, S> {
-    surfaces: &'s Surfaces<'w, S>,
-    receiver: &'s Receiver,
-    /// Of a cell, or four times the point.
-    corners: [DVec3; 4],
-}
-
-impl<S: Spectrum> JoinBound<'_, '_, S> {
-    /// The least distance to a place, the largest height of a place over the target, by how far the
-    /// target reaches around its centre.
-    fn reach_m(&self) -> f64 {
-        let centre = self.receiver.position;
-        self.corners.iter().map(|corner| corner.distance(centre)).fold(0.0, f64::max)
-    }
-
-    /// The largest cosine at the target of something at this distance at least.
-    fn cos(&self, places: impl Iterator<Item = DVec3>, distance_m: f64) -> f64 {
-        let Receiver { position, n, .. } = *self.receiver;
-        let height_m = places.map(|place| n.dot(place - position)).fold(0.0, f64::max);
-        (height_m / distance_m).min(1.0)
-    }
-}
-
-impl<S: Spectrum> Bounded for JoinBound<'_, '_, S> {
-    fn over_box(&self, low: DVec3, high: DVec3) -> f64 {
-        let position = self.receiver.position;
-        let distance_m = (position - position.clamp(low, high)).length() - self.reach_m();
-        if distance_m <= 0.0 {
-            return f64::INFINITY;
-        }
-        let corners = (0..8_u32).map(|corner| {
-            let pick = |axis: usize| if corner >> axis & 1 == 0 { low[axis] } else { high[axis] };
-            DVec3::new(pick(0), pick(1), pick(2))
-        });
-        let peaks = self.surfaces.peaks.0.iter().map(|peak| peak.value_sr.max(peak.with_cosine_sr));
-        let cos = self.cos(corners, distance_m);
-        peaks.fold(0.0, f64::max) * cos / (distance_m * distance_m)
-    }
-
-    fn over_part(&self, part: &SeenPart) -> f64 {
-        let position = self.receiver.position;
-        let distance_m = part.distance_m(position) - self.reach_m();
-        let cos =
-            if distance_m <= 0.0 { 1.0 } else { self.cos(part.corners.into_iter(), distance_m) };
-        if cos <= 0.0 {
-            return 0.0;
-        }
-        let peak = self.peak(part);
-        let cos_there = self.cos_there(part, &peak, distance_m);
-        if cos_there == 0.0 {
-            return 0.0;
-        }
-        if distance_m <= 0.0 {
-            return f64::INFINITY;
-        }
-        peak.with_cosine_sr * cos * cos_there / (distance_m * distance_m)
-    }
-
-    fn at_centre(&self, part: &SeenPart) -> f64 {
-        let Receiver { position, n, .. } = *self.receiver;
-        let way = part.centre() - position;
-        let distance_m = way.length();
-        let cos = n.dot(way) / distance_m;
-        let peak = self.peak(part);
-        let value = peak.with_cosine_sr * cos * self.cos_there(part, &peak, distance_m)
-            / (distance_m * distance_m);
-        if value.is_finite() { value.max(0.0) } else { 0.0 }
-    }
-}
-
-impl<S: Spectrum> JoinBound<'_, '_, S> {
-    fn peak(&self, part: &SeenPart) -> Peak {
-        let Surfaces { world, peaks, facets, .. } = self.surfaces;
-        peaks.at_facet(world, facets[part.facet as usize] as u32)
-    }
-
-    /// The cosine on the facet of something that is at least as far.
-    fn cos_there(&self, part: &SeenPart, peak: &Peak, distance_m: f64) -> f64 {
-        if !peak.is_lambertian {
-            return 1.0;
-        }
-        let [a, b, c] = part.corners;
-        let n = (b - a).cross(c - a).normalize_or_zero();
-        let height_m = self.corners.map(|corner| n.dot(corner - a).abs());
-        let height_m = height_m.into_iter().fold(0.0, f64::max);
-        if height_m == 0.0 { 0.0 } else { (height_m / distance_m.max(0.0)).min(1.0) }
-    }
-}
-
-impl Receiver {
-    /// Of its cell, or four times its point.
-    pub(super) fn corners(&self) -> [DVec3; 4] {
-        match self.target {
-            Target::Point { .. } => [self.position; 4],
-            Target::Cell { grid, cell } => [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]]
-                .map(|u| grid.point_in_cell(cell, u)),
-        }
-    }
 }

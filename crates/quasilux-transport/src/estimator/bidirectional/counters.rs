@@ -7,7 +7,7 @@
 use super::boxes::BoxTree;
 use super::engine::Engine;
 use super::light_subpath::{LastVertex, Passing};
-use super::plan::Receiver;
+use super::plan::{JoinEdge, Receiver};
 use crate::spectrum::Spectrum;
 use crate::stats::targets::Target;
 use crate::world::World;
@@ -172,8 +172,9 @@ fn share<S: Spectrum>(
         LastVertex::Surface { is_narrow, .. } if passing.leg.is_asked_for() => (1.0, is_narrow),
         LastVertex::Surface { cos: cos_there, is_narrow } => {
             let distance_m = passing.distance_m(along_m);
-            let geometry_m2 = cos * cos_there / (distance_m * distance_m);
-            (plan.joins(receiver, geometry_m2), is_narrow)
+            let square_m2 = distance_m * distance_m;
+            let edge = JoinEdge { cos, cos_there, square_m2, is_narrow };
+            (plan.joins(receiver, &edge), is_narrow)
         }
     };
     let is_of_emitters = passing.is_straight_from_emitters();

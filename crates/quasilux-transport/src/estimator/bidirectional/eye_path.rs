@@ -7,7 +7,7 @@ use super::departure::Departure;
 use super::engine::Engine;
 use super::light_subpath::{LightSubpaths, is_narrow};
 use super::mirrored_way::MirroredWay;
-use super::plan::{CONNECTED, FoundBy, Receiver};
+use super::plan::{CONNECTED, FoundBy, JoinEdge, Receiver};
 use super::sums::TargetSums;
 use crate::bsdf::{Bsdf, BsdfSample, TransportMode};
 use crate::context::Context;
@@ -265,8 +265,13 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
             return self.pass(engine, at, surface, arrived);
         }
         // Panes bend nothing: at the first surface this is the direction in which it left.
-        let geometry_m2 = self.receiver.n.dot(self.direction) * wo.z / (distance_m * distance_m);
-        let here = self.beside_light_subpaths(engine, arrived, bsdf, geometry_m2);
+        let edge = JoinEdge {
+            cos: self.receiver.n.dot(self.direction),
+            cos_there: wo.z,
+            square_m2: distance_m * distance_m,
+            is_narrow: is_narrow(bsdf),
+        };
+        let here = self.beside_light_subpaths(engine, arrived, Some(&edge));
         self.vertices += 1;
         let vertex = &Vertex::on(&context.world, at, surface, self.beta);
         self.bounces_asked = self.bounces + 1;
@@ -305,7 +310,7 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
         if goes_straight {
             self.distance_m += at.distance_m;
         } else {
-            let here = self.beside_light_subpaths(engine, arrived, bsdf, 0.0);
+            let here = self.beside_light_subpaths(engine, arrived, None);
             self.weights = here.map(|it| it.mirrored(next.wi.z.abs()));
             self.distance_m = 0.0;
             self.vertices += 1;
@@ -315,21 +320,22 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
     }
 
     /// What it weighs at a surface: light subpaths are joined to the target at the first, where
-    /// photons take part as well, and connected to a part of the others.
+    /// photons take part as well, and connected to a part of the others; nothing is joined over a
+    /// mirror, which has no edge.
     fn beside_light_subpaths(
         &self,
         engine: &Engine<'_, '_, S>,
         arrived: EyeWeights,
-        bsdf: &Bsdf<S>,
-        geometry_m2: f64,
+        edge: Option<&JoinEdge>,
     ) -> EyeWeights {
         if self.vertices > 0 {
             return arrived.map(|it| it.times(CONNECTED, 1.0));
         }
         let Engine { plan, .. } = engine;
-        let joins = plan.joins(self.receiver, geometry_m2);
+        let joins = edge.map_or(0.0, |edge| plan.joins(self.receiver, edge));
+        let is_narrow = edge.is_none_or(|edge| edge.is_narrow);
         EyeWeights(FoundBy::BOTH.map(|found| {
-            let photons = plan.photons(self.receiver, is_narrow(bsdf), found);
+            let photons = plan.photons(self.receiver, is_narrow, found);
             arrived.select(found).times(joins, photons)
         }))
     }

@@ -6,8 +6,8 @@
 //! all (systematic sampling), from one coordinate.
 
 use super::engine::Engine;
-use super::light_subpath::{LightVertex, is_narrow};
-use super::plan::Receiver;
+use super::light_subpath::LightVertex;
+use super::plan::{JoinEdge, Receiver};
 use crate::bsdf::TransportMode;
 use crate::path::subpath_weights::{of_connection, product};
 use crate::spectrum::Spectrum;
@@ -42,12 +42,13 @@ impl Joiner<'_> {
             if front <= 0.0 {
                 continue;
             }
-            let geometry_m2 = front * behind.abs() / (square_m2 * square_m2);
-            self.next -= self.receiver.join_probability(geometry_m2);
+            let distance_m = square_m2.sqrt();
+            let (cos, cos_there) = (front / distance_m, behind.abs() / distance_m);
+            let edge = JoinEdge { cos, cos_there, square_m2, is_narrow: vertex.is_narrow };
+            self.next -= self.receiver.join_probability(&edge);
             if self.next < 0.0 {
                 self.next += 1.0;
-                let distance_m = square_m2.sqrt();
-                let join = Join { direction: way / distance_m, distance_m, geometry_m2 };
+                let join = Join { direction: way / distance_m, distance_m, edge };
                 join.ask(self, engine, who, vertex, shadows);
             }
         }
@@ -59,8 +60,7 @@ struct Join {
     /// Unit direction from the target.
     direction: DVec3,
     distance_m: f64,
-    /// Cosines over squared distance.
-    geometry_m2: f64,
+    edge: JoinEdge,
 }
 
 impl Join {
@@ -72,24 +72,23 @@ impl Join {
         vertex: &LightVertex<S>,
         shadows: &mut ShadowQueue<S>,
     ) {
-        let &Self { direction, distance_m, geometry_m2 } = self;
-        let LightVertex { at, frame, wo, flux_lm, bounces, weights, found_by } = vertex;
+        let &Self { direction, distance_m, ref edge } = self;
+        let LightVertex { at, frame, wo, flux_lm, bounces, weights, is_narrow, found_by } = vertex;
         let bsdf = engine.context.world.bsdf(at);
         let wi = frame.to_local(-direction);
         if wi.z <= 0.0 && !(wi.z < 0.0 && bsdf.transmits()) {
             return;
         }
         let scattered = bsdf.evaluate(*wo, wi, at.front, TransportMode::Importance);
-        let square_m2 = distance_m * distance_m;
-        let cos = joiner.receiver.n.dot(direction);
-        let joins = engine.plan.joins(joiner.receiver, geometry_m2);
-        let photons = engine.plan.photons(joiner.receiver, is_narrow(bsdf), *found_by);
+        let &JoinEdge { cos, cos_there, square_m2, .. } = edge;
+        let joins = engine.plan.joins(joiner.receiver, edge);
+        let photons = engine.plan.photons(joiner.receiver, *is_narrow, *found_by);
         let to_eye = product(bsdf.survival_pdf_sr(*wo, wi) * cos / square_m2, photons / joins);
         let to_light = product(
             cos * FRAC_1_PI * wi.z.abs() / square_m2,
             weights.towards(bsdf.survival_pdf_sr(wi, *wo)) / joins,
         );
-        let lx = geometry_m2 / joins * of_connection(to_eye, to_light);
+        let lx = cos * cos_there / square_m2 / joins * of_connection(to_eye, to_light);
         let light = *flux_lm * scattered * lx;
         let is_something = light.luminance() > 0.0 && light.luminance().is_finite();
         if is_something {

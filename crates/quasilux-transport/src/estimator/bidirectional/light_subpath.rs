@@ -35,6 +35,7 @@ pub(super) struct LightVertex<S> {
     /// Surfaces and panes before this one.
     pub(super) bounces: u32,
     pub(super) weights: SubpathWeights,
+    pub(super) is_narrow: bool,
     pub(super) found_by: FoundBy,
 }
 
@@ -239,13 +240,15 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
         let weights = self.weights_at(engine, at, bsdf, wo.z);
         let (flux_lm, bounces) = (self.flux_lm, self.bounces);
         let found_by = engine.found_by(&self.photon);
-        let vertex = LightVertex { at: *at, frame, wo, flux_lm, bounces, weights, found_by };
+        let is_narrow = is_narrow(bsdf);
+        let vertex =
+            LightVertex { at: *at, frame, wo, flux_lm, bounces, weights, is_narrow, found_by };
         found.push(FoundVertex { subpath: self.number, vertex });
         let Some(next) = next(&mut self.sampler) else { return false };
         let cos = next.wi.z.abs();
         let pdfs_sr = [bsdf.survival_pdf_sr(wo, next.wi), bsdf.survival_pdf_sr(next.wi, wo)];
         let weights = weights.scattered(cos, pdfs_sr[0], pdfs_sr[1]);
-        let last = LastVertex::Surface { cos, is_narrow: is_narrow(bsdf) };
+        let last = LastVertex::Surface { cos, is_narrow };
         let (class, mirrored) = (LightPathClass::Found, None);
         self.leg = Leg { weights, distance_m: 0.0, last, class, mirrored };
         self.go_on(engine, at, &frame, &next)

@@ -47,10 +47,12 @@
 //! | joined to the target | flux / share x `f_r` x cosines over squared distance / q | specular last |
 //! | disc, cell | flux / share / A | |
 //!
-//! Luminaires with an area and lamps chosen from a table are bounded by joins and photons alone.
-//! Of narrow materials and of the sky suprema are looked up on grids, with a margin: all others are
-//! never too low. For K, the samples that a subpath may have, see `samples`, and [`caps::Caps`] for
-//! what follows.
+//! Luminaires with an area and lamps chosen from a table are bounded by joins and photons alone. Of
+//! metal and coats `f_r` with its cosine is `1 / (2 pi alpha^3)` at the horizon, less where the
+//! direction is known (`peaks`). Of measured materials and of the sky suprema are looked up on
+//! grids, with a margin: all others are never too low. Samples are asserted to stay below caps, and
+//! `caps::search` looks for paths that pass them. For K, the samples that a subpath may have, see
+//! `samples`, and [`caps::Caps`] for what follows.
 //!
 //! Read on at `unit`, which traces all of this for some indices, and `estimator`.
 

@@ -54,7 +54,7 @@ impl<S: Spectrum> Nearness<'_, '_, S> {
 }
 
 impl<S: Spectrum> Bounded for Nearness<'_, '_, S> {
-    fn over_box(&self, low: DVec3, high: DVec3) -> f64 {
+    fn over_box(&self, _number: u32, low: DVec3, high: DVec3) -> f64 {
         let foremost = DVec3::select(self.n.cmpgt(DVec3::ZERO), high, low);
         let distance_m = (self.position - self.position.clamp(low, high)).length();
         if self.is_before(foremost) { distance_m.recip() } else { 0.0 }

@@ -72,6 +72,17 @@ pub(super) struct Plan {
     pub(super) receivers: Vec<Receiver>,
 }
 
+/// Between a target and a surface.
+pub(super) struct JoinEdge {
+    /// At the target.
+    pub(super) cos: f64,
+    /// At the surface.
+    pub(super) cos_there: f64,
+    /// Of its length.
+    pub(super) square_m2: f64,
+    pub(super) is_narrow: bool,
+}
+
 /// How photons are counted at a target, and joined to it.
 #[derive(Clone, Debug)]
 pub(super) struct Receiver {
@@ -124,8 +135,8 @@ impl Plan {
     }
 
     /// Joins that are made of a light vertex, on average, for each eye path.
-    pub(super) fn joins(&self, receiver: &Receiver, geometry_m2: f64) -> f64 {
-        self.joined as f64 * receiver.join_probability(geometry_m2)
+    pub(super) fn joins(&self, receiver: &Receiver, edge: &JoinEdge) -> f64 {
+        self.joined as f64 * receiver.join_probability(edge)
     }
 }
 
@@ -196,19 +207,21 @@ impl Receiver {
 
     /// Asserts that a sample adds no more to an index than its caps say.
     pub(super) fn assert_capped<S: Spectrum>(&self, technique: &str, light: S) {
+        let lx = light.luminance();
         // What is not a number is counted elsewhere.
         debug_assert!(
-            !(light.luminance() > self.most_lx * (1.0 + 1e-9)),
-            "{technique} adds {} lx at {:?}, at most {} lx were expected",
-            light.luminance(),
+            lx.is_nan() || lx <= self.most_lx * (1.0 + 1e-9),
+            "{technique} adds {lx} lx at {:?}, at most {} lx were expected",
             self.position,
             self.most_lx
         );
     }
 
-    /// The chance of a join, by its cosines over squared distance.
-    pub(super) fn join_probability(&self, geometry_m2: f64) -> f64 {
-        (geometry_m2 / self.sure_m2).min(1.0)
+    /// The chance of a join: by its cosines over squared distance. Narrow surfaces may send more
+    /// the lower, so of them the cosine is left out.
+    pub(super) fn join_probability(&self, edge: &JoinEdge) -> f64 {
+        let cos_there = if edge.is_narrow { 1.0 } else { edge.cos_there };
+        (edge.cos * cos_there / edge.square_m2 / self.sure_m2).min(1.0)
     }
 
     /// The area in m^2 on which photons count that come straight from a light.

@@ -26,8 +26,8 @@ pub(super) struct SeenPart {
 
 /// From bounds over boxes and triangles to the largest value over all facets.
 pub(super) trait Bounded {
-    /// At least the largest value in a box, by the facets in it.
-    fn over_box(&self, low: DVec3, high: DVec3) -> f64;
+    /// At least the largest value in a box of the tree, by its number and corners.
+    fn over_box(&self, number: u32, low: DVec3, high: DVec3) -> f64;
 
     /// At least the largest value on a triangle.
     fn over_part(&self, part: &SeenPart) -> f64;
@@ -88,7 +88,7 @@ pub(super) fn supremum<S: Spectrum>(
         },
         |number| {
             let node = tree.node(number);
-            value.over_box(node.low, node.high)
+            value.over_box(number, node.low, node.high)
         },
     )
 }
@@ -138,6 +138,11 @@ impl SeenPart {
     pub(super) fn radius_m(&self) -> f64 {
         let centre = self.centre();
         self.corners.iter().map(|corner| corner.distance(centre)).fold(0.0, f64::max)
+    }
+
+    /// The largest distance of a place, in m.
+    pub(super) fn farthest_m(&self, place: DVec3) -> f64 {
+        self.corners.iter().map(|corner| corner.distance(place)).fold(0.0, f64::max)
     }
 
     fn quarters(&self) -> [Self; 4] {
