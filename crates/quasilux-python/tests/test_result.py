@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 import math
 import pickle
@@ -305,7 +306,10 @@ def test_pickled_results_are_the_same(result: quasilux.Result, tmp_path: Path) -
     sensor = pickle.loads(pickle.dumps(result["board"]))
     assert np.array_equal(sensor.illuminance_lx, result["board"].illuminance_lx)
     assert pickle.loads(pickle.dumps(view)).name == "view"
-    assert pickle.loads(pickle.dumps(result["board"].average)) == result["board"].average
+    average = result["board"].average
+    copy = pickle.loads(pickle.dumps(average))
+    assert math.isnan(copy.unseen_lx) and copy == average and hash(copy) == hash(average)
+    assert copy != dataclasses.replace(average, unseen_lx=0.0) and copy != average.value
 
 
 def test_results_show_themselves(result: quasilux.Result) -> None:

@@ -9,11 +9,12 @@ from typing import Any
 from quasilux import _native
 
 
-@dataclasses.dataclass(frozen=True)
+@dataclasses.dataclass(frozen=True, eq=False)
 class Figure:
     """A value and half the width of its confidence interval.
 
     It can stand where a number is wanted, and prints with the digits that its interval leaves it.
+    Figures are equal where all three of their numbers are, or are not numbers in both.
 
     Attributes
     ----------
@@ -42,6 +43,17 @@ class Figure:
     def _from_entry(cls, entry: dict[str, Any]) -> Figure:
         known = (entry["value"], entry["half_width"], entry.get("unseen_lx"))
         return cls(*(math.nan if x is None else x for x in known))
+
+    def _numbers(self) -> tuple[float | None, ...]:
+        return tuple(None if math.isnan(x) else x for x in dataclasses.astuple(self))
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Figure):
+            return NotImplemented
+        return self._numbers() == other._numbers()
+
+    def __hash__(self) -> int:
+        return hash(self._numbers())
 
     def __float__(self) -> float:
         return self.value
