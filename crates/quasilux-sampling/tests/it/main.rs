@@ -12,6 +12,7 @@ mod faure4;
 mod groups;
 mod halton;
 mod integrands;
+mod missed_sets;
 mod owen;
 mod quality;
 mod random;
