@@ -1,5 +1,7 @@
 //! A hierarchy of boxes: which of many small things may a segment meet, and which is nearest.
 
+use crate::spectrum::Spectrum;
+use crate::world::World;
 use glam::DVec3;
 
 /// Things in a leaf at most.
@@ -61,6 +63,15 @@ impl BoxTree {
             }
         }
         Self { nodes, things }
+    }
+
+    /// Around these facets, which are its things in this order.
+    pub(super) fn of_facets<S: Spectrum>(world: &World<S>, facets: &[usize]) -> Self {
+        let corners = facets.iter().map(|number| {
+            let [a, b, c] = world.facets[*number].corners();
+            [a.min(b).min(c), a.max(b).max(c)]
+        });
+        Self::new(&corners.collect::<Vec<[DVec3; 2]>>())
     }
 
     /// The box around everything.

@@ -147,7 +147,7 @@ impl Receiver {
             return None;
         }
         let along_m = (self.position - from).dot(self.n) / approach;
-        let part = if passing.is_straight_from_emitters() { self.emitters_part } else { 1.0 };
+        let part = self.straight_part(passing.is_straight_from_emitters());
         let square_m2 = self.radius_m? * self.radius_m? * part;
         let aside = from + direction * along_m - self.position;
         let is_on_way = 0.0 < along_m && along_m < length_m;
@@ -177,8 +177,7 @@ fn share<S: Spectrum>(
             (plan.joins(receiver, &edge), is_narrow)
         }
     };
-    let is_of_emitters = passing.is_straight_from_emitters();
-    let part = receiver.straight_m2(is_of_emitters) / receiver.area_m2;
+    let part = receiver.straight_part(passing.is_straight_from_emitters());
     let photons = plan.photons(receiver, is_narrow, passing.found_by(engine)) * part;
     let others = weights.times(alone, 1.0).towards(cos * FRAC_1_PI);
     let weight = photons / (photons + others);

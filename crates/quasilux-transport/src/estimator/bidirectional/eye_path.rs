@@ -233,10 +233,7 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
         if receiver.is_cell() {
             path.sample_direct_all_pointlikes(engine, eye_vertex, work);
         }
-        path.sample_direct_luminaire(engine, eye_vertex, work);
-        path.sample_direct_emitter(engine, &beside(true), work);
-        path.sample_direct_outside(engine, eye_vertex, work);
-        path.sample_direct_emitter_images(engine, eye_vertex, work);
+        path.sample_direct_areas(engine, eye_vertex, &beside(true), work);
         path
     }
 
@@ -280,7 +277,7 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
         let eye_vertex = &EyeVertex { vertex, weights: here };
         self.sample_direct_pointlike(engine, eye_vertex, work);
         self.sample_direct_images(engine, eye_vertex, work);
-        self.sample_direct_areas(engine, eye_vertex, work);
+        self.sample_direct_areas(engine, eye_vertex, eye_vertex, work);
         self.connect(engine, eye_vertex, work);
         let next = bsdf.sample(wo, at.front, TransportMode::Radiance, &mut self.sampler);
         let Some(next) = next else { return false };

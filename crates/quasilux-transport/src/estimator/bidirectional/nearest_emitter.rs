@@ -17,12 +17,7 @@ impl<'w, S: Spectrum> EmittingFacets<'w, S> {
     pub(super) fn new(world: &'w World<S>) -> Self {
         let emits = |number: &usize| world.facets[*number].emitted_cd_m2 > 0.0;
         let facets: Vec<usize> = (0..world.facets.len()).filter(emits).collect();
-        let corners = facets.iter().map(|number| {
-            let [a, b, c] = world.facets[*number].corners();
-            [a.min(b).min(c), a.max(b).max(c)]
-        });
-        let tree = BoxTree::new(&corners.collect::<Vec<[DVec3; 2]>>());
-        Self { world, tree, facets }
+        Self { world, tree: BoxTree::of_facets(world, &facets), facets }
     }
 
     /// The least distance in m of one whose front may be seen from a place to the side `n`, or a

@@ -224,9 +224,14 @@ impl Receiver {
         (edge.cos * cos_there / edge.square_m2 / self.sure_m2).min(1.0)
     }
 
+    /// The part of its area on which photons count.
+    pub(super) fn straight_part(&self, is_straight_from_emitters: bool) -> f64 {
+        if is_straight_from_emitters { self.emitters_part } else { 1.0 }
+    }
+
     /// The area in m^2 on which photons count that come straight from a light.
     pub(super) fn straight_m2(&self, is_of_emitters: bool) -> f64 {
-        if is_of_emitters { self.area_m2 * self.emitters_part } else { self.area_m2 }
+        self.area_m2 * self.straight_part(is_of_emitters)
     }
 
     pub(super) fn is_cell(&self) -> bool {

@@ -136,8 +136,7 @@ impl SeenPart {
 
     /// The radius of a ball around its centre.
     pub(super) fn radius_m(&self) -> f64 {
-        let centre = self.centre();
-        self.corners.iter().map(|corner| corner.distance(centre)).fold(0.0, f64::max)
+        self.farthest_m(self.centre())
     }
 
     /// The largest distance of a place, in m.

@@ -48,19 +48,14 @@ pub(super) struct Surfaces<'w, S> {
 impl<'w, S: Spectrum> Surfaces<'w, S> {
     pub(super) fn new(context: &'w Context<'_, S>) -> Self {
         let world = &context.world;
-        let corners = |number: usize| {
-            let [a, b, c] = world.facets[number].corners();
-            [a.min(b).min(c), a.max(b).max(c)]
-        };
         let peaks = Peaks::new(world);
         let scatters = (0..world.facets.len())
             .filter(|it| peaks.at_facet(world, *it as u32).largest_sr() > 0.0);
         let facets: Vec<usize> = scatters.collect();
-        let boxes: Vec<[DVec3; 2]> = facets.iter().map(|it| corners(*it)).collect();
         let lights = &context.lights.pointlikes;
         let pointlikes =
             (0..lights.len()).filter_map(|it| IntensityBound::new(lights.get(it)?)).collect();
-        let tree = BoxTree::new(&boxes);
+        let tree = BoxTree::of_facets(world, &facets);
         let peak = |thing: u32| peaks.at_facet(world, facets[thing as usize] as u32);
         let peaks_in_sr = tree.largest_in(|thing| peak(thing).largest_sr());
         let is_narrow = |thing: u32| if peak(thing).is_lambertian { 0.0 } else { 1.0 };

@@ -89,20 +89,22 @@ impl<S: Spectrum> EyePath<'_, S> {
         images.sample_direct(&query, u, share, &mut work.images, &mut work.shadows);
     }
 
-    /// Asks for the light of lights with an extent, and from outside.
+    /// Asks for the light of lights with an extent, and from outside; `beside_emitters` has the
+    /// weights where photons come straight from emitting facets.
     pub(super) fn sample_direct_areas(
         &mut self,
         engine: &Engine<'_, '_, S>,
         eye_vertex: &EyeVertex<'_, '_, S>,
+        beside_emitters: &EyeVertex<'_, '_, S>,
         work: &mut EyePaths<S>,
     ) {
         self.sample_direct_luminaire(engine, eye_vertex, work);
-        self.sample_direct_emitter(engine, eye_vertex, work);
+        self.sample_direct_emitter(engine, beside_emitters, work);
         self.sample_direct_outside(engine, eye_vertex, work);
         self.sample_direct_emitter_images(engine, eye_vertex, work);
     }
 
-    pub(super) fn sample_direct_luminaire(
+    fn sample_direct_luminaire(
         &mut self,
         engine: &Engine<'_, '_, S>,
         eye_vertex: &EyeVertex<'_, '_, S>,
@@ -130,7 +132,7 @@ impl<S: Spectrum> EyePath<'_, S> {
         self.ask(sample.map(|it| eye_vertex.beside_landings(it, per_lm, pdf)), eye_vertex, work);
     }
 
-    pub(super) fn sample_direct_emitter(
+    fn sample_direct_emitter(
         &mut self,
         engine: &Engine<'_, '_, S>,
         eye_vertex: &EyeVertex<'_, '_, S>,
@@ -150,7 +152,7 @@ impl<S: Spectrum> EyePath<'_, S> {
     }
 
     /// Asks for the light of area lights as mirrors show them.
-    pub(super) fn sample_direct_emitter_images(
+    fn sample_direct_emitter_images(
         &mut self,
         engine: &Engine<'_, '_, S>,
         eye_vertex: &EyeVertex<'_, '_, S>,
@@ -166,7 +168,7 @@ impl<S: Spectrum> EyePath<'_, S> {
         images.sample_emitters(&query, u, beside_sr, &mut work.images, &mut work.shadows);
     }
 
-    pub(super) fn sample_direct_outside(
+    fn sample_direct_outside(
         &mut self,
         engine: &Engine<'_, '_, S>,
         eye_vertex: &EyeVertex<'_, '_, S>,
