@@ -33,7 +33,7 @@ impl Peaks {
 
 /// The facets that scatter.
 pub(super) struct Surfaces<'w, S> {
-    world: &'w World<S>,
+    pub(super) world: &'w World<S>,
     peaks: Peaks,
     tree: BoxTree,
     /// The largest peak in each box of the tree, in sr^-1.
@@ -67,6 +67,12 @@ impl<'w, S: Spectrum> Surfaces<'w, S> {
         self.peaks.at_facet(self.world, self.facets[part.facet as usize] as u32)
     }
 
+    /// Whether it asks for light on both of its sides.
+    fn asks_both_sides(&self, part: &SeenPart) -> bool {
+        let facet = &self.world.facets[self.facets[part.facet as usize]];
+        self.world.bsdf_of(facet).transmits()
+    }
+
     /// At least the largest of what a lumen at a light vertex gives to a target that it is joined
     /// to, over the chance of that, in sr^-1 m^-2.
     pub(super) fn joined(&self, receiver: &Receiver) -> f64 {
@@ -92,11 +98,11 @@ impl<'w, S: Spectrum> Surfaces<'w, S> {
     /// At least the largest of what the sun gives, times pi and the scattering function.
     pub(super) fn lit_by_sun(&self, outside: &OutsideLight<'_>) -> f64 {
         let [cd_m2, lx] = outside.sun_brightness();
-        let Some(middle) = outside.sample_sun([0.0; 2]).filter(|_| lx > 0.0) else { return 0.0 };
+        let Some(toward) = outside.sample_sun([0.0; 2]).filter(|_| lx > 0.0) else { return 0.0 };
         // Anywhere on the disk, which a sample lies in.
         let across_rad = 2.0 * (lx / cd_m2 * FRAC_1_PI).sqrt();
         let of_facet = |number: &usize| {
-            let cos = self.world.facets[*number].front_normal.dot(middle).abs();
+            let cos = self.world.facets[*number].front_normal.dot(toward).abs();
             let least_cos = cos - across_rad;
             self.peaks.at_facet(self.world, *number as u32).largest_above_sr(least_cos)
         };
@@ -124,7 +130,7 @@ struct Lit<'s, 'w, S> {
 impl<S: Spectrum> Lit<'_, '_, S> {
     /// Pi times what the lights give there, by the least and the largest distance of each. Lights
     /// are chosen by illuminance, so what a surface that is not Lambertian sends on of one comes
-    /// with the illuminance by all.
+    /// with the illuminance by all; for both sides together by that without the cosine.
     fn value(
         &self,
         part: &SeenPart,
@@ -134,26 +140,32 @@ impl<S: Spectrum> Lit<'_, '_, S> {
         let [a, b, c] = part.corners;
         let n = (b - a).cross(c - a).normalize_or_zero();
         let peak = self.surfaces.map(|surfaces| surfaces.peak(part));
-        let (mut all_lx, mut normal_lx, mut most_sr, mut with_cosine_sr) = (0.0, 0.0, 0.0, 0.0);
+        let (mut all_lx, mut normal_lx, mut most_cos) = (0.0, 0.0, 0.0_f64);
+        let (mut most_sr, mut with_cosine_sr) = (0.0_f64, 0.0_f64);
         for light in self.lights {
             let height_m = n.dot(light.position - a).abs();
             let [near_m, far_m] = reach_m(light.position);
             let lx = cd(light) / (near_m * near_m);
+            normal_lx += lx;
             if height_m == 0.0 || lx == 0.0 {
                 continue;
             }
-            all_lx += lx * (height_m / near_m).min(1.0);
-            normal_lx += lx;
+            let cos = (height_m / near_m).min(1.0);
+            all_lx += lx * cos;
+            most_cos = most_cos.max(cos);
             if let Some(peak) = peak.filter(|peak| !peak.is_lambertian) {
                 let least_cos = height_m / far_m;
                 let sent_sr = peak.largest_above_sr(least_cos);
-                with_cosine_sr = f64::max(with_cosine_sr, sent_sr);
-                most_sr = f64::max(most_sr, sent_sr / least_cos);
+                with_cosine_sr = with_cosine_sr.max(sent_sr);
+                most_sr = most_sr.max(sent_sr / least_cos);
             }
         }
         let sent_lx = match peak {
             None => all_lx * FRAC_1_PI,
-            Some(peak) if peak.is_lambertian => all_lx * peak.largest_sr(),
+            Some(peak) if peak.is_lambertian => {
+                let is_sheet = self.surfaces.is_some_and(|it| it.asks_both_sides(part));
+                peak.largest_sr() * if is_sheet { normal_lx * most_cos } else { all_lx }
+            }
             Some(_) if self.lights.len() == 1 => normal_lx * with_cosine_sr,
             Some(_) => (all_lx * most_sr).max(normal_lx * with_cosine_sr),
         };
