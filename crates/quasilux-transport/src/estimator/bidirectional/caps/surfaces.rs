@@ -3,7 +3,7 @@
 use crate::context::Context;
 use crate::estimator::bidirectional::boxes::BoxTree;
 use crate::estimator::bidirectional::engine::Engine;
-use crate::estimator::bidirectional::intensities::IntensityBound;
+use crate::estimator::bidirectional::intensities::{Hull, IntensityBound};
 use crate::estimator::bidirectional::peaks::Peak;
 use crate::estimator::bidirectional::plan::Receiver;
 use crate::estimator::bidirectional::supremum::{Bounded, SeenPart, supremum, supremum_over};
@@ -12,6 +12,7 @@ use crate::spectrum::Spectrum;
 use crate::stats::targets::Target;
 use crate::world::World;
 use glam::DVec3;
+use std::array;
 use std::f64::consts::{FRAC_1_PI, PI};
 
 /// A choice among lights in proportion to what they give takes one with no less than this part of
@@ -131,12 +132,7 @@ impl<S: Spectrum> Lit<'_, '_, S> {
     /// Pi times what the lights give there, by the least and the largest distance of each. Lights
     /// are chosen by illuminance, so what a surface that is not Lambertian sends on of one comes
     /// with the illuminance by all; for both sides together by that without the cosine.
-    fn value(
-        &self,
-        part: &SeenPart,
-        reach_m: impl Fn(DVec3) -> [f64; 2],
-        cd: impl Fn(&IntensityBound) -> f64,
-    ) -> f64 {
+    fn value<'p>(&self, part: &SeenPart, hull_from: impl Fn(DVec3) -> Hull<'p>) -> f64 {
         let [a, b, c] = part.corners;
         let n = (b - a).cross(c - a).normalize_or_zero();
         let peak = self.surfaces.map(|surfaces| surfaces.peak(part));
@@ -144,8 +140,9 @@ impl<S: Spectrum> Lit<'_, '_, S> {
         let (mut most_sr, mut with_cosine_sr) = (0.0_f64, 0.0_f64);
         for light in self.lights {
             let height_m = n.dot(light.position - a).abs();
-            let [near_m, far_m] = reach_m(light.position);
-            let lx = cd(light) / (near_m * near_m);
+            let hull = hull_from(light.position);
+            let [near_m, far_m] = hull.distances_m;
+            let lx = light.most_cd(&hull) / (near_m * near_m);
             normal_lx += lx;
             if height_m == 0.0 || lx == 0.0 {
                 continue;
@@ -176,6 +173,7 @@ impl<S: Spectrum> Lit<'_, '_, S> {
 impl<S: Spectrum> Bounded for Lit<'_, '_, S> {
     fn over_box(&self, number: u32, low: DVec3, high: DVec3) -> f64 {
         let (centre, radius_m) = (0.5 * (low + high), 0.5 * (high - low).length());
+        let corners = &corners_of_box(low, high);
         let peaks = match self.surfaces {
             None => FRAC_1_PI,
             Some(surfaces) if self.lights.len() > 1 && surfaces.has_narrow_in[number as usize] => {
@@ -184,35 +182,42 @@ impl<S: Spectrum> Bounded for Lit<'_, '_, S> {
             Some(surfaces) => surfaces.peaks_in_sr[number as usize],
         };
         let of_light = |light: &IntensityBound| {
-            let distance_m = (light.position - light.position.clamp(low, high)).length();
-            let way = centre - light.position;
-            most_cd(light, way, radius_m) / (distance_m * distance_m)
+            let near_m = (light.position - light.position.clamp(low, high)).length();
+            let far_m = light.position.distance(centre) + radius_m;
+            let distances_m = [near_m, far_m];
+            light.most_cd(&Hull { corners, centre, radius_m, distances_m }) / (near_m * near_m)
         };
         PI * peaks * self.lights.iter().map(of_light).sum::<f64>()
     }
 
     fn over_part(&self, part: &SeenPart) -> f64 {
         let (centre, radius_m) = (part.centre(), part.radius_m());
-        let reach_m = |place: DVec3| [part.distance_m(place), part.farthest_m(place)];
-        self.value(part, reach_m, |light| most_cd(light, centre - light.position, radius_m))
+        self.value(part, |place| Hull {
+            corners: &part.corners,
+            centre,
+            radius_m,
+            distances_m: [part.distance_m(place), part.farthest_m(place)],
+        })
     }
 
     fn at_centre(&self, part: &SeenPart) -> f64 {
         let centre = part.centre();
-        let found = self.value(
-            part,
-            |place| [centre.distance(place); 2],
-            |light| light.most_cd((centre - light.position).normalize_or_zero(), 0.0),
-        );
+        let corners = [centre];
+        let found = self.value(part, |place| Hull {
+            corners: &corners,
+            centre,
+            radius_m: 0.0,
+            distances_m: [centre.distance(place); 2],
+        });
         if found.is_finite() { found } else { 0.0 }
     }
 }
 
-/// At least the intensity toward a ball of this radius whose centre is this way.
-fn most_cd(light: &IntensityBound, way: DVec3, radius_m: f64) -> f64 {
-    let distance_m = way.length();
-    let angle_rad = if radius_m < distance_m { libm::asin(radius_m / distance_m) } else { PI };
-    light.most_cd(way.normalize_or(DVec3::Z), angle_rad)
+fn corners_of_box(low: DVec3, high: DVec3) -> [DVec3; 8] {
+    array::from_fn(|corner| {
+        let pick = |axis: usize| if corner >> axis & 1 == 0 { low[axis] } else { high[axis] };
+        DVec3::new(pick(0), pick(1), pick(2))
+    })
 }
 
 /// What a lumen at a light vertex gives to a target, in sr^-1 m^-2.
@@ -246,11 +251,7 @@ impl<S: Spectrum> Bounded for JoinBound<'_, '_, S> {
         if distance_m <= 0.0 {
             return f64::INFINITY;
         }
-        let corners = (0..8_u32).map(|corner| {
-            let pick = |axis: usize| if corner >> axis & 1 == 0 { low[axis] } else { high[axis] };
-            DVec3::new(pick(0), pick(1), pick(2))
-        });
-        let cos = self.cos(corners, distance_m);
+        let cos = self.cos(corners_of_box(low, high).into_iter(), distance_m);
         self.surfaces.peaks_in_sr[number as usize] * cos / (distance_m * distance_m)
     }
 
