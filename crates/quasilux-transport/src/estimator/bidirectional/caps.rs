@@ -10,7 +10,7 @@ mod search;
 mod surfaces;
 
 use super::engine::Engine;
-use super::plan::{FoundBy, Receiver};
+use super::plan::{FoundBy, Receiver, SUBPATHS};
 use super::samples::{samples_at_emitters, samples_of_subpaths};
 use super::sources::{PhotonFluxes, SKY_MARGIN};
 use crate::bsdf::Bsdf;
@@ -71,7 +71,7 @@ impl Caps {
         let of_target = |receiver: &Receiver| {
             let joined_sr_m2 = if no_bounce { 0.0 } else { surfaces.joined(receiver) };
             let largest = |kind: &Kind, samples: f64| {
-                let class = Class { engine, receiver, kind, joined_sr_m2, samples };
+                let class = Class { receiver, kind, joined_sr_m2, samples };
                 class.largest(&surfaces, has_specular, no_bounce)
             };
             let none = Cap { unseen_lx: 0.0, sample_lx: 0.0 };
@@ -120,8 +120,7 @@ impl Caps {
 }
 
 /// Paths of one kind of light to one target.
-struct Class<'c, 'l, 'a, S> {
-    engine: &'c Engine<'l, 'a, S>,
+struct Class<'c> {
     receiver: &'c Receiver,
     kind: &'c Kind,
     /// The most that a lumen at a light vertex gives where it is joined, over the chance of that,
@@ -131,16 +130,20 @@ struct Class<'c, 'l, 'a, S> {
     samples: f64,
 }
 
-impl<S: Spectrum> Class<'_, '_, '_, S> {
+impl Class<'_> {
     /// K W over all classes.
-    fn largest(&self, surfaces: &Surfaces<'_, S>, has_specular: bool, no_bounce: bool) -> f64 {
-        let &Self { engine, receiver, kind, samples, .. } = self;
-        let plan = &engine.plan;
+    fn largest<S: Spectrum>(
+        &self,
+        surfaces: &Surfaces<'_, S>,
+        has_specular: bool,
+        no_bounce: bool,
+    ) -> f64 {
+        let &Self { receiver, kind, samples, .. } = self;
         // Numbers of samples over K and their caps; light that comes straight is met once.
         let straight_disc = receiver.straight_m2(kind.is_of_emitters) / kind.flux_lm;
         let disc = receiver.area_m2 / kind.flux_lm / samples;
-        let all_photons = plan.photons(receiver, true, kind.found_by) / kind.flux_lm;
-        let joined = plan.joined as f64 / (kind.flux_lm * self.joined_sr_m2 * samples);
+        let all_photons = receiver.photons(true, kind.found_by) / kind.flux_lm;
+        let joined = SUBPATHS as f64 / (kind.flux_lm * self.joined_sr_m2 * samples);
         let [eye, met] = [kind.eye_lx, kind.met_lx].map(|lx| (lx * kind.eye_samples).recip());
         let mut largest = 0.0_f64;
         let mut class = |counts: f64| {

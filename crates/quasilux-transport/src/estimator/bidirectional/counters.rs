@@ -7,7 +7,7 @@
 use super::boxes::BoxTree;
 use super::engine::Engine;
 use super::light_subpath::{LastVertex, Passing};
-use super::plan::{JoinEdge, Receiver};
+use super::plan::{JoinEdge, Receiver, SUBPATHS};
 use crate::spectrum::Spectrum;
 use crate::stats::targets::Target;
 use crate::world::World;
@@ -162,7 +162,7 @@ fn share<S: Spectrum>(
     passing: &Passing<'_, S>,
     along_m: f64,
 ) -> S {
-    let (plan, n) = (&engine.plan, receiver.n);
+    let n = receiver.n;
     let direction = passing.flight.direction;
     let position = passing.flight.from + direction * along_m;
     let cos = -n.dot(direction);
@@ -174,14 +174,14 @@ fn share<S: Spectrum>(
             let distance_m = passing.distance_m(along_m);
             let square_m2 = distance_m * distance_m;
             let edge = JoinEdge { cos, cos_there, square_m2, is_narrow };
-            (plan.joins(receiver, &edge), is_narrow)
+            (receiver.joins(&edge), is_narrow)
         }
     };
     let part = receiver.straight_part(passing.is_straight_from_emitters());
-    let photons = plan.photons(receiver, is_narrow, passing.found_by(engine)) * part;
+    let photons = receiver.photons(is_narrow, passing.found_by(engine)) * part;
     let others = weights.times(alone, 1.0).towards(cos * FRAC_1_PI);
     let weight = photons / (photons + others);
-    passing.flux_lm * (weight / (receiver.area_m2 * part * plan.subpaths as f64))
+    passing.flux_lm * (weight / (receiver.area_m2 * part * SUBPATHS as f64))
 }
 
 /// The sections that follow one of a cell with others of the same grid, in ascending order of

@@ -3,7 +3,7 @@
 
 use super::caps::Caps;
 use super::engine::Engine;
-use super::plan::Plan;
+use super::plan::{Plan, SUBPATHS};
 use super::sums::TargetSums;
 use super::unit::{INDICES, UnitSums};
 use crate::codec::{Reader, StateError, Sums, Writer, add_count, digest};
@@ -230,13 +230,13 @@ impl<S: Spectrum> Estimator for BidirectionalEstimator<'_, S> {
 
     fn decisions(&self) -> Decisions {
         let Engine { plan, emitters_found_by, sky_found_by, .. } = &self.engine;
-        let Plan { subpaths, joined, receivers } = plan;
+        let Plan { receivers } = plan;
         Decisions {
-            connected_photons: Some(*subpaths),
+            connected_photons: Some(SUBPATHS),
             digest: digest(|out| {
                 out.value(&self.quantum);
                 out.value(&self.exact.iter().map(Exact::sum_lx).collect::<Vec<f64>>());
-                out.value(&[*subpaths, *joined]);
+                out.value(&SUBPATHS);
                 out.value(&[*emitters_found_by, *sky_found_by]);
                 let of_receivers = receivers.iter().map(|it| [it.area_m2, it.sure_m2]);
                 out.value(&of_receivers.collect::<Vec<[f64; 2]>>());

@@ -268,7 +268,7 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
             square_m2: distance_m * distance_m,
             is_narrow: is_narrow(bsdf),
         };
-        let here = self.beside_light_subpaths(engine, arrived, Some(&edge));
+        let here = self.beside_light_subpaths(arrived, Some(&edge));
         self.vertices += 1;
         let vertex = &Vertex::on(&context.world, at, surface, self.beta);
         self.bounces_asked = self.bounces + 1;
@@ -307,7 +307,7 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
         if goes_straight {
             self.distance_m += at.distance_m;
         } else {
-            let here = self.beside_light_subpaths(engine, arrived, None);
+            let here = self.beside_light_subpaths(arrived, None);
             self.weights = here.map(|it| it.mirrored(next.wi.z.abs()));
             self.distance_m = 0.0;
             self.vertices += 1;
@@ -319,20 +319,14 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
     /// What it weighs at a surface: light subpaths are joined to the target at the first, where
     /// photons take part as well, and connected to a part of the others; nothing is joined over a
     /// mirror, which has no edge.
-    fn beside_light_subpaths(
-        &self,
-        engine: &Engine<'_, '_, S>,
-        arrived: EyeWeights,
-        edge: Option<&JoinEdge>,
-    ) -> EyeWeights {
+    fn beside_light_subpaths(&self, arrived: EyeWeights, edge: Option<&JoinEdge>) -> EyeWeights {
         if self.vertices > 0 {
             return arrived.map(|it| it.times(CONNECTED, 1.0));
         }
-        let Engine { plan, .. } = engine;
-        let joins = edge.map_or(0.0, |edge| plan.joins(self.receiver, edge));
+        let joins = edge.map_or(0.0, |edge| self.receiver.joins(edge));
         let is_narrow = edge.is_none_or(|edge| edge.is_narrow);
         EyeWeights(FoundBy::BOTH.map(|found| {
-            let photons = plan.photons(self.receiver, is_narrow, found);
+            let photons = self.receiver.photons(is_narrow, found);
             arrived.select(found).times(joins, photons)
         }))
     }

@@ -6,7 +6,7 @@
 //! all (systematic sampling), from one coordinate.
 
 use super::engine::Engine;
-use super::light_subpath::LightVertex;
+use super::light_subpath::{LightSubpaths, LightVertex};
 use super::plan::{JoinEdge, Receiver};
 use crate::bsdf::TransportMode;
 use crate::path::subpath_weights::{of_connection, product};
@@ -16,6 +16,7 @@ use crate::world::visibility::ShadowQueue;
 use glam::DVec3;
 use quasilux_bvh::RayQuery;
 use std::f64::consts::FRAC_1_PI;
+use std::ops::Range;
 
 /// A place of a target that vertices are joined to.
 pub(super) struct Joiner<'r> {
@@ -27,29 +28,31 @@ pub(super) struct Joiner<'r> {
 
 impl Joiner<'_> {
     /// Asks for the light of some of these vertices.
-    pub(super) fn join<'v, S: Spectrum>(
+    pub(super) fn join<S: Spectrum>(
         &mut self,
         engine: &Engine<'_, '_, S>,
         who: u32,
-        vertices: impl Iterator<Item = &'v LightVertex<S>>,
+        light: &LightSubpaths<S>,
+        numbers: Range<usize>,
         shadows: &mut ShadowQueue<S>,
     ) {
         let most = engine.context.max_bounces.unwrap_or(u32::MAX);
-        for vertex in vertices.take_while(|it| it.bounces < most) {
-            let way = vertex.at.position - self.from.position();
-            let square_m2 = way.length_squared();
-            let (front, behind) = (self.receiver.n.dot(way), -vertex.at.n.dot(way));
+        let places = &light.places[numbers.clone()];
+        for (number, place) in numbers.zip(places).filter(|(_, place)| place.bounces < most) {
+            let way = place.position - self.from.position();
+            let front = self.receiver.n.dot(way);
             if front <= 0.0 {
                 continue;
             }
+            let square_m2 = way.length_squared();
             let distance_m = square_m2.sqrt();
-            let (cos, cos_there) = (front / distance_m, behind.abs() / distance_m);
-            let edge = JoinEdge { cos, cos_there, square_m2, is_narrow: vertex.is_narrow };
+            let (cos, cos_there) = (front / distance_m, place.n.dot(way).abs() / distance_m);
+            let edge = JoinEdge { cos, cos_there, square_m2, is_narrow: place.is_narrow };
             self.next -= self.receiver.join_probability(&edge);
             if self.next < 0.0 {
                 self.next += 1.0;
                 let join = Join { direction: way / distance_m, distance_m, edge };
-                join.ask(self, engine, who, vertex, shadows);
+                join.ask(self, engine, who, &light.vertices[number], shadows);
             }
         }
     }
@@ -81,8 +84,8 @@ impl Join {
         }
         let scattered = bsdf.evaluate(*wo, wi, at.front, TransportMode::Importance);
         let &JoinEdge { cos, cos_there, square_m2, .. } = edge;
-        let joins = engine.plan.joins(joiner.receiver, edge);
-        let photons = engine.plan.photons(joiner.receiver, *is_narrow, *found_by);
+        let joins = joiner.receiver.joins(edge);
+        let photons = joiner.receiver.photons(*is_narrow, *found_by);
         let to_eye = product(bsdf.survival_pdf_sr(*wo, wi) * cos / square_m2, photons / joins);
         let to_light = product(
             cos * FRAC_1_PI * wi.z.abs() / square_m2,

@@ -39,6 +39,14 @@ pub(super) struct LightVertex<S> {
     pub(super) found_by: FoundBy,
 }
 
+/// What decides whether a vertex is joined to a target.
+pub(super) struct JoinPlace {
+    pub(super) position: DVec3,
+    pub(super) n: DVec3,
+    pub(super) bounces: u32,
+    pub(super) is_narrow: bool,
+}
+
 /// A vertex with the number of its subpath.
 struct FoundVertex<S> {
     subpath: usize,
@@ -94,23 +102,26 @@ pub(super) struct Passing<'s, S> {
 
 /// Vertices of subpaths that were traced together.
 pub(super) struct LightSubpaths<S> {
-    vertices: Vec<LightVertex<S>>,
-    /// Where they are, by their subpaths.
-    order: Vec<u32>,
-    /// Those of each subpath in that.
-    own: Vec<Range<usize>>,
+    /// Subpath by subpath, in the order in which each met them.
+    pub(super) vertices: Vec<LightVertex<S>>,
+    /// Of the same vertices.
+    pub(super) places: Vec<JoinPlace>,
+    /// Those of each subpath begin there, and end where the next begin.
+    begins: Vec<usize>,
     pub(super) rays: u64,
     /// Cut on their way.
     pub(super) endless: u64,
 }
 
 impl<S> LightSubpaths<S> {
-    /// Those of one, in the order in which it met them.
-    pub(super) fn vertices_of(
-        &self,
-        subpath: usize,
-    ) -> impl Iterator<Item = &LightVertex<S>> + Clone {
-        self.order[self.own[subpath].clone()].iter().map(|place| &self.vertices[*place as usize])
+    /// Those of one.
+    pub(super) fn vertices_of(&self, subpath: usize) -> &[LightVertex<S>] {
+        &self.vertices[self.numbers_of(subpath..subpath + 1)]
+    }
+
+    /// The numbers of those of some.
+    pub(super) fn numbers_of(&self, subpaths: Range<usize>) -> Range<usize> {
+        self.begins[subpaths.start]..self.begins[subpaths.end]
     }
 }
 
@@ -151,22 +162,20 @@ impl<S: Spectrum> LightSubpaths<S> {
         Self { rays, endless: travelling.len() as u64, ..Self::by_subpath(found, count) }
     }
 
-    /// Vertices of so many subpaths, in the order in which each met its own.
-    fn by_subpath(found: Vec<FoundVertex<S>>, count: usize) -> Self {
-        let numbers: Vec<usize> = found.iter().map(|it| it.subpath).collect();
+    /// Vertices of so many subpaths.
+    fn by_subpath(mut found: Vec<FoundVertex<S>>, count: usize) -> Self {
+        found.sort_by_key(|it| it.subpath);
+        let begin = |subpath: usize| found.partition_point(|it| it.subpath < subpath);
+        let begins = (0..=count).map(begin).collect();
+        let place = |FoundVertex { vertex, .. }: &FoundVertex<S>| JoinPlace {
+            position: vertex.at.position,
+            n: vertex.at.n,
+            bounces: vertex.bounces,
+            is_narrow: vertex.is_narrow,
+        };
+        let places = found.iter().map(place).collect();
         let vertices = found.into_iter().map(|it| it.vertex).collect();
-        let mut own = vec![0..0; count];
-        numbers.iter().for_each(|number| own[*number].end += 1);
-        let mut first = 0;
-        for range in &mut own {
-            (first, *range) = (first + range.end, first..first);
-        }
-        let mut order = vec![0; numbers.len()];
-        for (place, number) in numbers.into_iter().enumerate() {
-            order[own[number].end] = place as u32;
-            own[number].end += 1;
-        }
-        Self { vertices, order, own, rays: 0, endless: 0 }
+        Self { vertices, places, begins, rays: 0, endless: 0 }
     }
 }
 

@@ -17,7 +17,7 @@
 //! | eye path asks for light | `E_k a`, a the choice of the lamp, of the place on it, of the direction to the sky or the sun | 1 | `eye_path` |
 //! | eye path runs into a facet, the sky or the sun | `E_k b`, b the density of its direction | 1 | `eye_path` |
 //! | eye path joined to a light vertex between | `E_j L_(j + 1)` | 1/4 | `eye_path` |
-//! | light vertex joined to the target | `L_1` | `J q`, q by cosines over squared distance | `joins` |
+//! | light vertex joined to the target | `L_1` | `M q`, q by cosines over squared distance | `joins` |
 //! | photon crosses the disc or cell of area A | `A L_1 l`, l the density of landing there | 1, or `M` where `x_1` is narrow and eye paths hardly meet the light | `counters` |
 //!
 //! A surface makes the next vertex with `min(pdf, f cos)`: roulette is part of the density

@@ -1,10 +1,10 @@
 //! Numbers of samples of each technique, frozen before the first one, and how each target counts
 //! photons.
 //!
-//! For each index every target gets one eye path; the light subpaths of that index serve all
-//! targets. They are so many that tracing them costs about half of the eye paths, and each target
-//! is joined to the vertices of some of them: surely where a join gives much, else with a chance in
-//! proportion to it. Joins then cost no more than eye paths do either.
+//! For each index every target gets one eye path, and is joined to the vertices of all light
+//! subpaths of that index: surely where a join gives much, else with a chance in proportion to it.
+//! Subpaths that serve only some of the targets are no even part of a point set, and made the error
+//! larger.
 
 use super::nearest_emitter::EmittingFacets;
 use crate::context::Context;
@@ -16,15 +16,12 @@ use glam::DVec3;
 use serde::Serialize;
 use std::f64::consts::{PI, TAU};
 
-/// Light subpaths of an index: so many at least, and at most.
-const SUBPATHS: [u64; 2] = [4, 512];
-/// Light subpaths that a target is joined to for each of its eye paths.
-const JOINED: u64 = 32;
+/// Light subpaths of an index, a power of two. In rooms with a hundred sensor points, of 8, 32 and
+/// 128 none has the least error in a given time everywhere; 32 are never far from it.
+pub(super) const SUBPATHS: u64 = 32;
 /// The part of the surfaces of eye paths that are connected to light vertices. All of them made the
 /// error of open rooms larger, and that of rooms behind bends hardly smaller.
 pub(super) const CONNECTED: f64 = 0.25;
-/// Where only photons can bring some of the light, so many times as many.
-const MORE_WHERE_SPECULAR: u64 = 4;
 /// The radius of a disc in m, and as a share of the scene's size at most.
 const RADIUS_M: f64 = 0.1;
 const SHARE_OF_SIZE: f64 = 1.0 / 64.0;
@@ -65,10 +62,6 @@ fn largest_radius_m<S: Spectrum>(world: &World<S>) -> f64 {
 /// Numbers of samples for each index.
 #[derive(Clone, Debug)]
 pub(super) struct Plan {
-    /// Light subpaths, a power of two.
-    pub(super) subpaths: u64,
-    /// Those of them that a target is joined to, a power of two.
-    pub(super) joined: u64,
     pub(super) receivers: Vec<Receiver>,
 }
 
@@ -109,35 +102,13 @@ impl Plan {
         let area_m2: f64 = world.facets.iter().map(|facet| facet.area_m2()).sum();
         let emitting = EmittingFacets::new(world);
         let receiver = |it: &Target| Receiver::new(context, it, area_m2, &emitting);
-        let receivers = targets.iter().map(receiver).collect();
-        let more = if world.has_specular_facets() { MORE_WHERE_SPECULAR } else { 1 };
-        let [least, most] = SUBPATHS;
-        let subpaths = (targets.len() as u64 * more).next_power_of_two().clamp(least, most);
-        Self { subpaths, joined: subpaths.min(JOINED), receivers }
+        Self { receivers: targets.iter().map(receiver).collect() }
     }
+}
 
-    /// The first of the light subpaths of an index that a target is joined to: others for each
-    /// index, for those with the same number in all of them are no even part of the set.
-    pub(super) fn first_joined(&self, target: usize, index: u64) -> u64 {
-        (target as u64).wrapping_add(index) % (self.subpaths / self.joined) * self.joined
-    }
-
-    /// The light subpath that the eye path of a target with this index is connected to.
-    pub(super) fn connected(&self, target: usize, index: u64) -> u64 {
-        (target as u64).wrapping_add(index) % self.subpaths
-    }
-
-    /// Photons that count in weights, for each eye path, over those that land on a square metre:
-    /// all of them where the last surface is narrow and eye paths hardly find the light past it.
-    pub(super) fn photons(&self, receiver: &Receiver, is_narrow: bool, found: FoundBy) -> f64 {
-        let all = is_narrow && found == FoundBy::Photons;
-        receiver.area_m2 * if all { self.subpaths as f64 } else { 1.0 }
-    }
-
-    /// Joins that are made of a light vertex, on average, for each eye path.
-    pub(super) fn joins(&self, receiver: &Receiver, edge: &JoinEdge) -> f64 {
-        self.joined as f64 * receiver.join_probability(edge)
-    }
+/// The light subpath that the eye path of a target with this index is connected to.
+pub(super) fn connected(target: usize, index: u64) -> u64 {
+    (target as u64).wrapping_add(index) % SUBPATHS
 }
 
 impl Receiver {
@@ -215,6 +186,18 @@ impl Receiver {
             self.position,
             self.most_lx
         );
+    }
+
+    /// Photons that count in weights, for each eye path, over those that land on a square metre:
+    /// all of them where the last surface is narrow and eye paths hardly find the light past it.
+    pub(super) fn photons(&self, is_narrow: bool, found: FoundBy) -> f64 {
+        let all = is_narrow && found == FoundBy::Photons;
+        self.area_m2 * if all { SUBPATHS as f64 } else { 1.0 }
+    }
+
+    /// Joins that are made of a light vertex, on average, for each eye path.
+    pub(super) fn joins(&self, edge: &JoinEdge) -> f64 {
+        SUBPATHS as f64 * self.join_probability(edge)
     }
 
     /// The chance of a join: by its cosines over squared distance. Narrow surfaces may send more

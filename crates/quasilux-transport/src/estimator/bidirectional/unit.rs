@@ -8,7 +8,7 @@ use super::engine::Engine;
 use super::eye_path::{EyePaths, SectionSums, Start};
 use super::joins::Joiner;
 use super::light_subpath::LightSubpaths;
-use super::plan::Receiver;
+use super::plan::{Receiver, SUBPATHS, connected};
 use super::sums::TargetSums;
 use crate::context::Stream;
 use crate::path::sections::{WorkCounts, partner};
@@ -58,8 +58,8 @@ impl Unit<'_> {
         let points = context.points(self.replicate, Stream::SharedSubpaths);
         // Subpaths that are connected must not have the same digits.
         let samplers = self.indices.clone().flat_map(|index| {
-            let own = partner(index) * plan.subpaths;
-            (own..own + plan.subpaths).map(|index| Sampler::new(&points, index))
+            let own = partner(index) * SUBPATHS;
+            (own..own + SUBPATHS).map(|index| Sampler::new(&points, index))
         });
         let counters = Counters::new(&context.world, &receivers);
         let light = LightSubpaths::trace(engine, samplers, |passing| {
@@ -73,7 +73,7 @@ impl Unit<'_> {
         let found = &mut SectionSums { sums: &mut sums, quantum };
         work.rays += self.join(engine, &receivers, &light, found);
         work += self.gather(engine, &receivers, &light, found);
-        let photons = (self.indices.end - self.indices.start) * plan.subpaths;
+        let photons = (self.indices.end - self.indices.start) * SUBPATHS;
         UnitSums { sums, work, photons }
     }
 
@@ -85,20 +85,19 @@ impl Unit<'_> {
         light: &LightSubpaths<S>,
         found: &mut SectionSums<'_>,
     ) -> u64 {
-        let Engine { context, plan, .. } = engine;
+        let Engine { context, .. } = engine;
         let world = &context.world;
         let mut shadows = ShadowQueue::default();
         shadows.max_bounces = context.max_bounces.unwrap_or(u32::MAX);
         for (section, (target, receiver)) in self.targets.iter().zip(receivers).enumerate() {
             let points = context.points(self.replicate, Stream::Joins(*target as u64));
-            for (place, index) in (0..).zip(self.indices.clone()) {
+            let places = (0..).step_by(SUBPATHS as usize);
+            for (place, index) in places.zip(self.indices.clone()) {
                 let u = || [0, 1].map(|dimension| points.coordinate(index, dimension));
                 let from = receiver.origin(world, u);
                 let mut joiner = Joiner { receiver, from, next: points.coordinate(index, 2) };
-                let first = (place * plan.subpaths + plan.first_joined(*target, index)) as usize;
-                for subpath in first..first + plan.joined as usize {
-                    joiner.join(engine, section as u32, light.vertices_of(subpath), &mut shadows);
-                }
+                let numbers = light.numbers_of(place..place + SUBPATHS as usize);
+                joiner.join(engine, section as u32, light, numbers, &mut shadows);
             }
             let asked = section + 1;
             if asked % ASKED_TOGETHER == 0 || asked == receivers.len() {
@@ -118,7 +117,7 @@ impl Unit<'_> {
         light: &LightSubpaths<S>,
         found: &mut SectionSums<'_>,
     ) -> WorkCounts {
-        let Engine { context, plan, .. } = engine;
+        let Engine { context, .. } = engine;
         let mut paths = EyePaths::default();
         let at_once = (WAVE / (self.indices.end - self.indices.start)).max(1) as usize;
         for first in (0..self.targets.len()).step_by(at_once) {
@@ -131,7 +130,7 @@ impl Unit<'_> {
             let starts = sections.zip(&points).flat_map(|(section, points)| {
                 let target = self.targets[section];
                 (0..).zip(self.indices.clone()).map(move |(place, index)| {
-                    let subpath = place * plan.subpaths + plan.connected(target, index);
+                    let subpath = place * SUBPATHS + connected(target, index);
                     Start {
                         section,
                         receiver: receivers[section],

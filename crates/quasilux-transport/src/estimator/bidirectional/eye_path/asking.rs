@@ -231,7 +231,8 @@ impl<S: Spectrum> EyePath<'_, S> {
     ) {
         let most = engine.context.max_bounces.unwrap_or(u32::MAX);
         let bounces = self.bounces_asked;
-        let own = self.light.vertices_of(self.subpath).take_while(|it| bounces + it.bounces < most);
+        let own = self.light.vertices_of(self.subpath).iter();
+        let own = own.take_while(|it| bounces + it.bounces < most);
         let count = own.clone().count();
         if count == 0 {
             return;
