@@ -44,13 +44,18 @@ impl Joiner<'_> {
             if front <= 0.0 {
                 continue;
             }
+            let behind = place.n.dot(way).abs();
             let square_m2 = way.length_squared();
-            let distance_m = square_m2.sqrt();
-            let (cos, cos_there) = (front / distance_m, place.n.dot(way).abs() / distance_m);
-            let edge = JoinEdge { cos, cos_there, square_m2, is_narrow: place.is_narrow };
-            self.next -= self.receiver.join_probability(&edge);
+            let per_m2 = match place.is_narrow {
+                false => front * behind / (square_m2 * square_m2),
+                true => front / (square_m2 * square_m2.sqrt()),
+            };
+            self.next -= self.receiver.join_probability_of(per_m2);
             if self.next < 0.0 {
                 self.next += 1.0;
+                let distance_m = square_m2.sqrt();
+                let (cos, cos_there) = (front / distance_m, behind / distance_m);
+                let edge = JoinEdge { cos, cos_there, square_m2, is_narrow: place.is_narrow };
                 let join = Join { direction: way / distance_m, distance_m, edge };
                 join.ask(self, engine, who, &light.vertices[number], shadows);
             }

@@ -204,7 +204,12 @@ impl Receiver {
     /// the lower, so of them the cosine is left out.
     pub(super) fn join_probability(&self, edge: &JoinEdge) -> f64 {
         let cos_there = if edge.is_narrow { 1.0 } else { edge.cos_there };
-        (edge.cos * cos_there / edge.square_m2 / self.sure_m2).min(1.0)
+        self.join_probability_of(edge.cos * cos_there / edge.square_m2)
+    }
+
+    /// The same by what it goes with, in m^-2.
+    pub(super) fn join_probability_of(&self, per_m2: f64) -> f64 {
+        (per_m2 / self.sure_m2).min(1.0)
     }
 
     /// The part of its area on which photons count.
