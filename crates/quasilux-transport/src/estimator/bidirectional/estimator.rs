@@ -238,7 +238,7 @@ impl<S: Spectrum> Estimator for BidirectionalEstimator<'_, S> {
                 out.value(&self.exact.iter().map(Exact::sum_lx).collect::<Vec<f64>>());
                 out.value(&SUBPATHS);
                 out.value(&[*emitters_found_by, *sky_found_by]);
-                let of_receivers = receivers.iter().map(|it| [it.area_m2, it.sure_m2]);
+                let of_receivers = receivers.iter().map(|it| [it.area_m2, it.per_sure_m2]);
                 out.value(&of_receivers.collect::<Vec<[f64; 2]>>());
             }),
             ..Decisions::default()

@@ -26,6 +26,18 @@ pub(super) struct Joiner<'r> {
     pub(super) next: f64,
 }
 
+/// Working space of joins.
+pub(super) struct JoinWork<S> {
+    probabilities: Vec<f64>,
+    pub(super) shadows: ShadowQueue<S>,
+}
+
+impl<S> Default for JoinWork<S> {
+    fn default() -> Self {
+        Self { probabilities: Vec::new(), shadows: ShadowQueue::default() }
+    }
+}
+
 impl Joiner<'_> {
     /// Asks for the light of some of these vertices.
     pub(super) fn join<S: Spectrum>(
@@ -34,30 +46,20 @@ impl Joiner<'_> {
         who: u32,
         light: &LightSubpaths<S>,
         numbers: Range<usize>,
-        shadows: &mut ShadowQueue<S>,
+        work: &mut JoinWork<S>,
     ) {
         let most = engine.context.max_bounces.unwrap_or(u32::MAX);
-        let places = &light.places[numbers.clone()];
-        for (number, place) in numbers.zip(places).filter(|(_, place)| place.bounces < most) {
-            let way = place.position - self.from.position();
-            let front = self.receiver.n.dot(way);
-            if front <= 0.0 {
-                continue;
-            }
-            let behind = place.n.dot(way).abs();
-            let square_m2 = way.length_squared();
-            let per_m2 = match place.is_narrow {
-                false => front * behind / (square_m2 * square_m2),
-                true => front / (square_m2 * square_m2.sqrt()),
-            };
-            self.next -= self.receiver.join_probability_of(per_m2);
+        let JoinWork { probabilities, shadows } = work;
+        let from = self.from.position();
+        light.places.probabilities(numbers.clone(), self.receiver, from, probabilities);
+        for (number, probability) in numbers.zip(probabilities) {
+            self.next -= *probability;
             if self.next < 0.0 {
                 self.next += 1.0;
-                let distance_m = square_m2.sqrt();
-                let (cos, cos_there) = (front / distance_m, behind / distance_m);
-                let edge = JoinEdge { cos, cos_there, square_m2, is_narrow: place.is_narrow };
-                let join = Join { direction: way / distance_m, distance_m, edge };
-                join.ask(self, engine, who, &light.vertices[number], shadows);
+                let vertex = &light.vertices[number];
+                if vertex.bounces < most {
+                    Join::new(self, vertex).ask(self, engine, who, vertex, shadows);
+                }
             }
         }
     }
@@ -72,6 +74,17 @@ struct Join {
 }
 
 impl Join {
+    fn new<S>(joiner: &Joiner<'_>, vertex: &LightVertex<S>) -> Self {
+        let way = vertex.at.position - joiner.from.position();
+        let square_m2 = way.length_squared();
+        let distance_m = square_m2.sqrt();
+        let direction = way / distance_m;
+        let cos = joiner.receiver.n.dot(direction);
+        let cos_there = vertex.at.n.dot(direction).abs();
+        let edge = JoinEdge { cos, cos_there, square_m2, is_narrow: vertex.is_narrow };
+        Self { direction, distance_m, edge }
+    }
+
     fn ask<S: Spectrum>(
         &self,
         joiner: &Joiner<'_>,

@@ -6,6 +6,7 @@
 use super::arrival::{Arrival, Asks};
 use super::departure::Departure;
 use super::engine::Engine;
+use super::join_places::{JoinPlace, JoinPlaces};
 use super::mirrored_way::MirroredWay;
 use super::plan::{CONNECTED, FoundBy};
 use super::sources::Photon;
@@ -37,14 +38,6 @@ pub(super) struct LightVertex<S> {
     pub(super) weights: SubpathWeights,
     pub(super) is_narrow: bool,
     pub(super) found_by: FoundBy,
-}
-
-/// What decides whether a vertex is joined to a target.
-pub(super) struct JoinPlace {
-    pub(super) position: DVec3,
-    pub(super) n: DVec3,
-    pub(super) bounces: u32,
-    pub(super) is_narrow: bool,
 }
 
 /// A vertex with the number of its subpath.
@@ -105,7 +98,7 @@ pub(super) struct LightSubpaths<S> {
     /// Subpath by subpath, in the order in which each met them.
     pub(super) vertices: Vec<LightVertex<S>>,
     /// Of the same vertices.
-    pub(super) places: Vec<JoinPlace>,
+    pub(super) places: JoinPlaces,
     /// Those of each subpath begin there, and end where the next begin.
     begins: Vec<usize>,
     pub(super) rays: u64,
@@ -167,13 +160,10 @@ impl<S: Spectrum> LightSubpaths<S> {
         found.sort_by_key(|it| it.subpath);
         let begin = |subpath: usize| found.partition_point(|it| it.subpath < subpath);
         let begins = (0..=count).map(begin).collect();
-        let place = |FoundVertex { vertex, .. }: &FoundVertex<S>| JoinPlace {
-            position: vertex.at.position,
-            n: vertex.at.n,
-            bounces: vertex.bounces,
-            is_narrow: vertex.is_narrow,
-        };
-        let places = found.iter().map(place).collect();
+        let mut places = JoinPlaces::default();
+        for FoundVertex { vertex: LightVertex { at, is_narrow, .. }, .. } in &found {
+            places.push(JoinPlace { position: at.position, n: at.n, is_narrow: *is_narrow });
+        }
         let vertices = found.into_iter().map(|it| it.vertex).collect();
         Self { vertices, places, begins, rays: 0, endless: 0 }
     }

@@ -65,6 +65,7 @@ mod engine;
 mod estimator;
 mod eye_path;
 mod intensities;
+mod join_places;
 mod joins;
 mod light_subpath;
 mod mirrored_way;

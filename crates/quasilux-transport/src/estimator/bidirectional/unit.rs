@@ -6,7 +6,7 @@
 use super::counters::{Counters, Crossing};
 use super::engine::Engine;
 use super::eye_path::{EyePaths, SectionSums, Start};
-use super::joins::Joiner;
+use super::joins::{JoinWork, Joiner};
 use super::light_subpath::LightSubpaths;
 use super::plan::{Receiver, SUBPATHS, connected};
 use super::sums::TargetSums;
@@ -15,7 +15,6 @@ use crate::path::sections::{WorkCounts, partner};
 use crate::path::wave::WAVE;
 use crate::spectrum::Spectrum;
 use crate::stats::tally::Quantum;
-use crate::world::visibility::ShadowQueue;
 use quasilux_sampling::{PointSet, Sampler};
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
@@ -24,7 +23,7 @@ use std::ops::Range;
 pub(super) const INDICES: u64 = 16;
 
 /// Targets whose shadow rays of joins are traced together.
-const ASKED_TOGETHER: usize = 64;
+const ASKED_TOGETHER: usize = 16;
 
 /// Some targets with some indices in one replicate.
 pub(super) struct Unit<'t> {
@@ -87,8 +86,8 @@ impl Unit<'_> {
     ) -> u64 {
         let Engine { context, .. } = engine;
         let world = &context.world;
-        let mut shadows = ShadowQueue::default();
-        shadows.max_bounces = context.max_bounces.unwrap_or(u32::MAX);
+        let mut work = JoinWork::default();
+        work.shadows.max_bounces = context.max_bounces.unwrap_or(u32::MAX);
         for (section, (target, receiver)) in self.targets.iter().zip(receivers).enumerate() {
             let points = context.points(self.replicate, Stream::Joins(*target as u64));
             let places = (0..).step_by(SUBPATHS as usize);
@@ -97,16 +96,16 @@ impl Unit<'_> {
                 let from = receiver.origin(world, u);
                 let mut joiner = Joiner { receiver, from, next: points.coordinate(index, 2) };
                 let numbers = light.numbers_of(place..place + SUBPATHS as usize);
-                joiner.join(engine, section as u32, light, numbers, &mut shadows);
+                joiner.join(engine, section as u32, light, numbers, &mut work);
             }
             let asked = section + 1;
             if asked % ASKED_TOGETHER == 0 || asked == receivers.len() {
-                shadows.answer(world, |who, light: S, bounces| {
+                work.shadows.answer(world, |who, light: S, bounces| {
                     found.add(who as usize, bounces, light);
                 });
             }
         }
-        shadows.rays
+        work.shadows.rays
     }
 
     /// Traces the eye paths.

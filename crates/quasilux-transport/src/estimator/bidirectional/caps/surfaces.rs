@@ -81,7 +81,7 @@ impl<'w, S: Spectrum> Surfaces<'w, S> {
         let value = JoinBound { surfaces: self, receiver, corners };
         let at_most = supremum(self.world, &self.tree, &self.facets, &value);
         let scattered_sr = self.peaks.0.iter().map(Peak::largest_sr).fold(0.0, f64::max);
-        at_most.max(scattered_sr * receiver.sure_m2)
+        at_most.max(scattered_sr / receiver.per_sure_m2)
     }
 
     /// At least the largest of what the lights without extent give, times pi and the scattering
