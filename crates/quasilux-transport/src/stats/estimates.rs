@@ -238,12 +238,8 @@ fn mean(lx: &[f64]) -> f64 {
 }
 
 impl SensorEstimates {
-    /// Withdraws the intervals of the points that a witness contradicts; none where a bound says
-    /// what may be missing.
+    /// Withdraws the intervals of the points that a witness contradicts.
     pub(crate) fn withdraw(&mut self, contradicted: Vec<bool>) {
-        if self.unseen.is_some() {
-            return;
-        }
         let terms = self.terms.iter_mut().map(|term| &mut term.resolved);
         for resolved in terms.chain([&mut self.resolved]) {
             let known = resolved.iter_mut().zip(&contradicted);

@@ -5,7 +5,7 @@ use super::caps::Caps;
 use super::engine::Engine;
 use super::plan::{Plan, SUBPATHS};
 use super::sums::TargetSums;
-use super::unit::{INDICES, UnitSums};
+use super::unit::UnitSums;
 use crate::codec::{Reader, StateError, Sums, Writer, add_count, digest};
 use crate::context::Context;
 use crate::cutoff;
@@ -293,6 +293,7 @@ impl<S: Spectrum> Estimator for BidirectionalEstimator<'_, S> {
     }
 
     fn first_checkpoint(&self) -> u64 {
-        INDICES
+        // Where there are many targets all that a time limit leaves.
+        1
     }
 }

@@ -88,7 +88,9 @@ impl<'a, S: Spectrum> Witness<'a, S> {
         let targets = targets(scene);
         let is_of_use = !targets.is_empty()
             && settings.max_bounces != Some(0)
-            && settings.effective_replicates() > 1;
+            && settings.effective_replicates() > 1
+            // Has a bound on what it does not see.
+            && settings.estimator != EstimatorKind::Bidirectional;
         if !is_of_use {
             return None;
         }
