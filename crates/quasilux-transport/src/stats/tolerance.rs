@@ -280,11 +280,10 @@ mod tests {
         assert_eq!(dark.unseen_of_maximum(0), Some(f64::INFINITY));
     }
 
-    /// Neither a witness nor what seems to be hidden takes the interval of a point with a bound.
+    /// What seems to be hidden does not take the interval of a point with a bound.
     #[test]
     fn points_with_a_bound_are_not_withdrawn() {
         let mut sensor = made_up(&[(1.0, 0.1), (2.0, 0.1)], 0.1).sensors.remove(0);
-        sensor.withdraw(vec![true, false]);
         sensor.withdraw_unseen([false, true].into_iter());
         assert!(sensor.resolved.iter().all(|resolved| *resolved));
         assert!(![&sensor.missed, &sensor.contradicted].iter().any(|flags| flags.contains(&true)));
