@@ -312,17 +312,22 @@ impl<S: Spectrum> Bsdf<S> {
     }
 
     /// Density in sr^-1 of going on along `wi` after `wo`: that of [`Self::sample`] times the
-    /// chance to survive there with the weight of the sample, `min(pdf, f cos)`. Of measured
+    /// chance to survive there with `favour` times the weight of the sample, `min(pdf, favour f
+    /// cos)`. Of measured
     /// sheets, whose sides have frames of their own, that of a Lambertian surface, so that it is a
     /// function of the two directions alone. 0 for mirror directions.
-    pub(crate) fn survival_pdf_sr(&self, wo: DVec3, wi: DVec3) -> f64 {
+    pub(crate) fn survival_pdf_sr(&self, wo: DVec3, wi: DVec3, favour: f64) -> f64 {
         // Seen from the side of `wo`; what has two sides scatters alike on both.
         let side = 1.0_f64.copysign(wo.z);
         let (wo, wi) = (wo * side, wi * side);
-        let scattered =
-            || self.evaluate(wo, wi, true, TransportMode::Importance).max_channel() * wi.z.abs();
+        let scattered = || {
+            favour
+                * self.evaluate(wo, wi, true, TransportMode::Importance).max_channel()
+                * wi.z.abs()
+        };
         match self {
-            Self::Diffuse(_) | Self::Translucent(_) => scattered(),
+            Self::Diffuse(diffuse) => diffuse.pdf_sr(wi).min(scattered()),
+            Self::Translucent(translucent) => translucent.pdf_sr(wi).min(scattered()),
             Self::Mirror(_) | Self::Dielectric(_) | Self::Pane(_) => 0.0,
             Self::Conductor(conductor) => conductor.pdf_sr(wo, wi).min(scattered()),
             Self::Plastic(plastic) => plastic.pdf_sr(wo, wi).min(scattered()),

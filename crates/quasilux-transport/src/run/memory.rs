@@ -156,7 +156,11 @@ fn point_bytes(settings: &Settings) -> u64 {
     };
     let figures = replicates.saturating_mul(values * VALUE_BYTES);
     let own = [sums, joined, beside, figures];
-    total(own).saturating_add(SCORES_BYTES + PLACE_BYTES + witness::POINT_BYTES)
+    let watched = match settings.estimator {
+        EstimatorKind::Bidirectional => 0,
+        _ => SCORES_BYTES + witness::POINT_BYTES,
+    };
+    total(own).saturating_add(watched + PLACE_BYTES)
 }
 
 /// Elements of a map on one side of all triangles at most, as [`crate::photon::map::MapLayout`]

@@ -151,11 +151,11 @@ impl<'w, S: Spectrum> Vertex<'w, S> {
     }
 
     /// Density in sr^-1 of paths that go on from here along `direction`, survival in it.
-    pub(crate) fn survival_pdf_sr(&self, direction: DVec3) -> f64 {
+    pub(crate) fn survival_pdf_sr(&self, direction: DVec3, favour: f64) -> f64 {
         match &self.surface {
             None => self.pdf_sr(direction),
             Some(Surface { bsdf, frame, wo, .. }) => {
-                bsdf.survival_pdf_sr(*wo, frame.to_local(direction))
+                bsdf.survival_pdf_sr(*wo, frame.to_local(direction), favour)
             }
         }
     }
@@ -164,7 +164,7 @@ impl<'w, S: Spectrum> Vertex<'w, S> {
     /// at the start.
     pub(crate) fn reverse_survival_pdf_sr(&self, direction: DVec3) -> f64 {
         self.surface.as_ref().map_or(0.0, |Surface { bsdf, frame, wo, .. }| {
-            bsdf.survival_pdf_sr(frame.to_local(direction), *wo)
+            bsdf.survival_pdf_sr(frame.to_local(direction), *wo, 1.0)
         })
     }
 

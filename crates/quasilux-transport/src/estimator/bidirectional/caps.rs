@@ -80,7 +80,7 @@ impl Caps {
                 sample_lx: cap.sample_lx.max(largest(&Kind { eye_samples: 1.0, ..*kind }, 1.0)),
             })
         };
-        let of_targets: Vec<Cap> = engine.plan.receivers.par_iter().map(of_target).collect();
+        let of_targets: Vec<Cap> = engine.receivers.par_iter().map(of_target).collect();
         let of_eye_lx = if has_specular {
             f64::INFINITY
         } else {

@@ -26,9 +26,10 @@ impl<S: Spectrum> Departure<S> {
         at: &Interaction,
         frame: &Frame,
         next: &BsdfSample<S>,
+        favour: f64,
         sampler: &mut Sampler<'_>,
     ) -> Option<Self> {
-        let survival = next.weight.max_channel().min(1.0);
+        let survival = (favour * next.weight.max_channel()).min(1.0);
         let survives = survival > 0.0 && sampler.choose_bool(survival);
         let is_above = next.wi.z > 0.0;
         survives.then(|| Self {

@@ -1,7 +1,7 @@
 //! What all subpaths need: the scene made ready, the shares of its lights, and the numbers of
 //! samples of each technique.
 
-use super::plan::{FoundBy, Plan, largest_disc_m2};
+use super::plan::{FoundBy, Receiver, largest_disc_m2, receivers};
 use super::sources::{Photon, PhotonFluxes, Sources};
 use crate::context::Context;
 use crate::lights::LightKind;
@@ -9,12 +9,13 @@ use crate::spectrum::Spectrum;
 use crate::stats::targets::Target;
 use std::f64::consts::PI;
 
-/// The scene, its lights, and the plan.
+/// The scene, its lights, and how targets are served.
 pub(super) struct Engine<'l, 'a, S> {
     pub(super) context: &'l Context<'a, S>,
     pub(super) sources: Sources<'l, 'a>,
     pub(super) fluxes: PhotonFluxes,
-    pub(super) plan: Plan,
+    /// Of all targets.
+    pub(super) receivers: Vec<Receiver>,
     /// Who finds emitting facets past narrow surfaces, and the sky.
     pub(super) emitters_found_by: FoundBy,
     pub(super) sky_found_by: FoundBy,
@@ -30,7 +31,7 @@ impl<'l, 'a, S: Spectrum> Engine<'l, 'a, S> {
         let area_m2 = largest_disc_m2(&context.world);
         Self {
             context,
-            plan: Plan::new(context, targets),
+            receivers: receivers(context, targets),
             emitters_found_by: FoundBy::new(emitters_lx, fluxes.emitters_lm / area_m2),
             sky_found_by: FoundBy::new(sky_lx, fluxes.sky_lm / area_m2),
             fluxes,

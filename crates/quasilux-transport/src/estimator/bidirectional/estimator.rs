@@ -3,7 +3,7 @@
 
 use super::caps::Caps;
 use super::engine::Engine;
-use super::plan::{Plan, SUBPATHS};
+use super::plan::SUBPATHS;
 use super::sums::TargetSums;
 use super::unit::UnitSums;
 use crate::codec::{Reader, StateError, Sums, Writer, add_count, digest};
@@ -79,7 +79,7 @@ impl<'a, S: Spectrum> BidirectionalEstimator<'a, S> {
         let mut engine = Engine::new(context, &targets);
         let caps = Caps::new(&engine);
         for (receiver, most_lx) in
-            engine.plan.receivers.iter_mut().zip(caps.of_samples_lx(&context.world))
+            engine.receivers.iter_mut().zip(caps.of_samples_lx(&context.world))
         {
             receiver.most_lx = most_lx;
         }
@@ -198,7 +198,7 @@ impl<S: Spectrum> Estimator for BidirectionalEstimator<'_, S> {
                 average_lx: 0.0,
                 point_lx: unseen_lx,
                 merged_lx: self.mean_of(|sums| sums.merged),
-                disc_radius_m: self.engine.plan.receivers.iter().map(|it| it.radius_m).collect(),
+                disc_radius_m: self.engine.receivers.iter().map(|it| it.radius_m).collect(),
             }),
         };
         let mut sensors = by_sensor(self.scene, &all);
@@ -229,8 +229,7 @@ impl<S: Spectrum> Estimator for BidirectionalEstimator<'_, S> {
     }
 
     fn decisions(&self) -> Decisions {
-        let Engine { plan, emitters_found_by, sky_found_by, .. } = &self.engine;
-        let Plan { receivers } = plan;
+        let Engine { receivers, emitters_found_by, sky_found_by, .. } = &self.engine;
         Decisions {
             connected_photons: Some(SUBPATHS),
             digest: digest(|out| {

@@ -7,7 +7,7 @@ use super::departure::Departure;
 use super::engine::Engine;
 use super::light_subpath::{LightSubpaths, is_narrow};
 use super::mirrored_way::MirroredWay;
-use super::plan::{CONNECTED, FoundBy, JoinEdge, Receiver};
+use super::plan::{CONNECTED, FoundBy, JoinEdge, Receiver, favour};
 use super::sums::TargetSums;
 use crate::bsdf::{Bsdf, BsdfSample, TransportMode};
 use crate::context::Context;
@@ -225,6 +225,7 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
         work.shadows.max_bounces = context.max_bounces.unwrap_or(u32::MAX);
         let beside = |is_of_emitters: bool| EyeVertex {
             vertex,
+            number: 0,
             weights: EyeWeights(
                 [SubpathWeights::new(receiver.straight_m2(is_of_emitters), 0.0); 2],
             ),
@@ -274,20 +275,23 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
         self.bounces_asked = self.bounces + 1;
         work.shadows.max_bounces =
             context.max_bounces.map_or(u32::MAX, |most| most - self.bounces_asked);
-        let eye_vertex = &EyeVertex { vertex, weights: here };
+        let number = self.vertices as usize;
+        let eye_vertex = &EyeVertex { vertex, weights: here, number };
         self.sample_direct_pointlike(engine, eye_vertex, work);
         self.sample_direct_images(engine, eye_vertex, work);
         self.sample_direct_areas(engine, eye_vertex, eye_vertex, work);
         self.connect(engine, eye_vertex, work);
         let next = bsdf.sample(wo, at.front, TransportMode::Radiance, &mut self.sampler);
         let Some(next) = next else { return false };
-        let pdfs_sr = [bsdf.survival_pdf_sr(wo, next.wi), bsdf.survival_pdf_sr(next.wi, wo)];
+        let favour = favour(number);
+        let pdfs_sr =
+            [bsdf.survival_pdf_sr(wo, next.wi, favour), bsdf.survival_pdf_sr(next.wi, wo, 1.0)];
         let cos = next.wi.z.abs();
         self.weights = here.map(|it| it.scattered(cos, pdfs_sr[0], pdfs_sr[1]));
         self.distance_m = 0.0;
         self.asked_from = Some(Asking::at(vertex));
         self.mirrored = MirroredFrom::new(context, vertex, pdfs_sr[0]);
-        self.go_on(engine, at, &frame, &next)
+        self.go_on(engine, at, &frame, &next, favour)
     }
 
     /// Goes on from a mirror, from glass, or through a pane.
@@ -313,7 +317,7 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
             self.vertices += 1;
             self.asked_from = None;
         }
-        self.go_on(engine, at, &frame, &next)
+        self.go_on(engine, at, &frame, &next, 1.0)
     }
 
     /// What it weighs at a surface: light subpaths are joined to the target at the first, where
@@ -338,9 +342,10 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
         at: &Interaction,
         frame: &Frame,
         next: &BsdfSample<S>,
+        favour: f64,
     ) -> bool {
         let world = &engine.context.world;
-        let departure = Departure::survive(world, at, frame, next, &mut self.sampler);
+        let departure = Departure::survive(world, at, frame, next, favour, &mut self.sampler);
         let Some(Departure { from, direction, factor }) = departure else { return false };
         (self.from, self.direction) = (from, direction);
         self.beta = self.beta * factor;

@@ -7,7 +7,7 @@
 
 use super::engine::Engine;
 use super::light_subpath::{LightSubpaths, LightVertex};
-use super::plan::{JoinEdge, Receiver};
+use super::plan::{JoinEdge, Receiver, favour};
 use crate::bsdf::TransportMode;
 use crate::path::subpath_weights::{of_connection, product};
 use crate::spectrum::Spectrum;
@@ -104,10 +104,10 @@ impl Join {
         let &JoinEdge { cos, cos_there, square_m2, .. } = edge;
         let joins = joiner.receiver.joins(edge);
         let photons = joiner.receiver.photons(*is_narrow, *found_by);
-        let to_eye = product(bsdf.survival_pdf_sr(*wo, wi) * cos / square_m2, photons / joins);
+        let to_eye = product(bsdf.survival_pdf_sr(*wo, wi, 1.0) * cos / square_m2, photons / joins);
         let to_light = product(
             cos * FRAC_1_PI * wi.z.abs() / square_m2,
-            weights.towards(bsdf.survival_pdf_sr(wi, *wo)) / joins,
+            weights.numbered(1).towards(bsdf.survival_pdf_sr(wi, *wo, favour(1))) / joins,
         );
         let lx = cos * cos_there / square_m2 / joins * of_connection(to_eye, to_light);
         let light = *flux_lm * scattered * lx;

@@ -7,6 +7,7 @@ use super::arrival::{Arrival, Asks};
 use super::departure::Departure;
 use super::engine::Engine;
 use super::join_places::{JoinPlace, JoinPlaces};
+use super::light_weights::LightWeights;
 use super::mirrored_way::MirroredWay;
 use super::plan::{CONNECTED, FoundBy};
 use super::sources::Photon;
@@ -35,7 +36,7 @@ pub(super) struct LightVertex<S> {
     pub(super) flux_lm: S,
     /// Surfaces and panes before this one.
     pub(super) bounces: u32,
-    pub(super) weights: SubpathWeights,
+    pub(super) weights: LightWeights,
     pub(super) is_narrow: bool,
     pub(super) found_by: FoundBy,
 }
@@ -63,7 +64,7 @@ struct LightSubpath<'p, S> {
 /// The way of a subpath since its last vertex.
 pub(super) struct Leg<S> {
     /// What it weighs, having left its last vertex; nothing is known before the first.
-    weights: SubpathWeights,
+    weights: LightWeights,
     /// Before the last pane, in m.
     distance_m: f64,
     pub(super) last: LastVertex,
@@ -179,7 +180,7 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
             LightKind::WayIn(_) => LightPathClass::Outside,
         };
         let leg = Leg {
-            weights: SubpathWeights::default(),
+            weights: LightWeights::default(),
             distance_m: 0.0,
             last: LastVertex::Light,
             class,
@@ -245,8 +246,7 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
         found.push(FoundVertex { subpath: self.number, vertex });
         let Some(next) = next(&mut self.sampler) else { return false };
         let cos = next.wi.z.abs();
-        let pdfs_sr = [bsdf.survival_pdf_sr(wo, next.wi), bsdf.survival_pdf_sr(next.wi, wo)];
-        let weights = weights.scattered(cos, pdfs_sr[0], pdfs_sr[1]);
+        let weights = weights.scattered(bsdf, wo, next.wi);
         let last = LastVertex::Surface { cos, is_narrow };
         let (class, mirrored) = (LightPathClass::Found, None);
         self.leg = Leg { weights, distance_m: 0.0, last, class, mirrored };
@@ -262,7 +262,7 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
         next: &BsdfSample<S>,
     ) -> bool {
         let world = &engine.context.world;
-        let departure = Departure::survive(world, at, frame, next, &mut self.sampler);
+        let departure = Departure::survive(world, at, frame, next, 1.0, &mut self.sampler);
         let Some(Departure { from, direction, factor }) = departure else { return false };
         (self.from, self.direction) = (from, direction);
         self.flux_lm = self.flux_lm * factor;
@@ -277,9 +277,9 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
         at: &Interaction,
         bsdf: &Bsdf<S>,
         cos: f64,
-    ) -> SubpathWeights {
+    ) -> LightWeights {
         if let Some(landings_m2) = self.mirrored_landings_m2(engine, at, bsdf) {
-            return SubpathWeights::of_landing(Some(landings_m2));
+            return SubpathWeights::of_landing(Some(landings_m2)).into();
         }
         let side = (!bsdf.transmits()).then_some(at.n);
         let arrival = Arrival {
@@ -292,7 +292,9 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
         };
         let weights = self.leg.weights_at(engine, &self.photon, &arrival);
         match self.leg.last {
-            LastVertex::Surface { .. } if !self.leg.is_asked_for() => weights.times(CONNECTED, 1.0),
+            LastVertex::Surface { .. } if !self.leg.is_asked_for() => {
+                weights.map(|it| it.times(CONNECTED, 1.0))
+            }
             LastVertex::Light | LastVertex::Surface { .. } => weights,
         }
     }
@@ -326,15 +328,15 @@ impl<S: Spectrum> Leg<S> {
         engine: &Engine<'_, '_, S>,
         photon: &Photon,
         arrival: &Arrival,
-    ) -> SubpathWeights {
+    ) -> LightWeights {
         let distance_m = self.distance_m + arrival.along_m;
         match self.last {
-            LastVertex::Light => arrival.of_photon(engine, photon, distance_m),
+            LastVertex::Light => arrival.of_photon(engine, photon, distance_m).into(),
             LastVertex::Surface { .. } => {
-                let weights = self.weights.arrived(distance_m, arrival.cos);
+                let weights = self.weights.map(|it| it.arrived(distance_m, arrival.cos));
                 let vcm = self.mirrored.as_ref().filter(|_| arrival.asks != Asks::Nothing);
                 let vcm = vcm.and_then(|way| arrival.of_image(engine, photon, way));
-                vcm.map_or(weights, |vcm| weights.asked(vcm))
+                vcm.map_or(weights, |vcm| weights.map(|it| it.asked(vcm)))
             }
         }
     }
@@ -379,7 +381,7 @@ impl<S: Spectrum> Passing<'_, S> {
             cos: -n.dot(direction),
             asks: if is_cell { Asks::AllPointlikes } else { Asks::One },
         };
-        self.leg.weights_at(engine, self.photon, &arrival)
+        self.leg.weights_at(engine, self.photon, &arrival).numbered(0)
     }
 }
 

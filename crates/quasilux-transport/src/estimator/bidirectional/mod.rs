@@ -21,7 +21,8 @@
 //! | photon crosses the disc or cell of area A | `A L_1 l`, l the density of landing there | 1, or `M` where `x_1` is narrow and eye paths hardly meet the light | `counters` |
 //!
 //! A surface makes the next vertex with `min(pdf, f cos)`: roulette is part of the density
-//! ([`crate::bsdf::Bsdf::survival_pdf_sr`]). A lamp is left with half of its share of the flux and
+//! ([`crate::bsdf::Bsdf::survival_pdf_sr`]). The first two of an eye path make it with `min(pdf, 2
+//! f cos)` (`plan::favour`, `light_weights`). A lamp is left with half of its share of the flux and
 //! an even half (`sources`), an emitting facet by its flux; lines from outside have the density of
 //! [`crate::lights::Lights::ways_in`]. Vertices of mirrors and glass are joined to nothing. Panes
 //! that let light straight through are no vertices: the edge goes on behind them, and what they
@@ -68,6 +69,7 @@ mod intensities;
 mod join_places;
 mod joins;
 mod light_subpath;
+mod light_weights;
 mod mirrored_way;
 mod nearest_emitter;
 mod peaks;

@@ -22,6 +22,12 @@ pub(super) const SUBPATHS: u64 = 32;
 /// The part of the surfaces of eye paths that are connected to light vertices. All of them made the
 /// error of open rooms larger, and that of rooms behind bends hardly smaller.
 pub(super) const CONNECTED: f64 = 0.25;
+
+/// Surfaces of an eye path that are left with more than what remains of its light.
+pub(super) const FAVOURED: usize = 2;
+/// By this factor, where that is no more than a certainty. What the first surfaces send on decides
+/// the error in cubes and mirrored rooms; four times, or a third surface, is hardly better.
+const FAVOUR: f64 = 2.0;
 /// The radius of a disc in m, and as a share of the scene's size at most.
 const RADIUS_M: f64 = 0.1;
 const SHARE_OF_SIZE: f64 = 1.0 / 64.0;
@@ -59,12 +65,6 @@ fn largest_radius_m<S: Spectrum>(world: &World<S>) -> f64 {
     RADIUS_M.min(SHARE_OF_SIZE * world.size_m())
 }
 
-/// Numbers of samples for each index.
-#[derive(Clone, Debug)]
-pub(super) struct Plan {
-    pub(super) receivers: Vec<Receiver>,
-}
-
 /// Between a target and a surface.
 pub(super) struct JoinEdge {
     /// At the target.
@@ -96,14 +96,21 @@ pub(super) struct Receiver {
     pub(super) most_lx: f64,
 }
 
-impl Plan {
-    pub(super) fn new<S: Spectrum>(context: &Context<'_, S>, targets: &[Target]) -> Self {
-        let world = &context.world;
-        let area_m2: f64 = world.facets.iter().map(|facet| facet.area_m2()).sum();
-        let emitting = EmittingFacets::new(world);
-        let receiver = |it: &Target| Receiver::new(context, it, area_m2, &emitting);
-        Self { receivers: targets.iter().map(receiver).collect() }
-    }
+/// Those of all targets.
+pub(super) fn receivers<S: Spectrum>(
+    context: &Context<'_, S>,
+    targets: &[Target],
+) -> Vec<Receiver> {
+    let world = &context.world;
+    let area_m2: f64 = world.facets.iter().map(|facet| facet.area_m2()).sum();
+    let emitting = EmittingFacets::new(world);
+    targets.iter().map(|it| Receiver::new(context, it, area_m2, &emitting)).collect()
+}
+
+/// The chance to go on from a surface with this number in an eye path over what remains of its
+/// light, where that is no more than a certainty; the target is 0.
+pub(super) fn favour(number: usize) -> f64 {
+    if number <= FAVOURED { FAVOUR } else { 1.0 }
 }
 
 /// The light subpath that the eye path of a target with this index is connected to.

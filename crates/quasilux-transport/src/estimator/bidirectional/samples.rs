@@ -3,7 +3,7 @@
 //! A subpath that is at a surface goes on with probability s at most, so n vertices follow,
 //! counting it, with `n <= 1 + s n'` of the next. Where the surfaces with the largest s lie in one
 //! plane, and nothing mirrors, the next is another: with r the largest s of all others, `n <= 1 + s
-//! (1 + r n)`.
+//! (1 + r n)`. Where eye paths favour a surface more of them go on, and each adds as much less.
 
 use crate::spectrum::Spectrum;
 use crate::world::{Facet, World};

@@ -49,9 +49,9 @@ impl Unit<'_> {
         engine: &Engine<'_, '_, S>,
         quantum: Quantum,
     ) -> UnitSums {
-        let Engine { context, plan, .. } = engine;
+        let Engine { context, receivers, .. } = engine;
         let receivers: Vec<&Receiver> =
-            self.targets.iter().map(|target| &plan.receivers[*target]).collect();
+            self.targets.iter().map(|target| &receivers[*target]).collect();
         let empty = TargetSums::new(context.listed_terms);
         let mut sums = vec![empty; self.targets.len()];
         let points = context.points(self.replicate, Stream::SharedSubpaths);

@@ -212,7 +212,7 @@ fn no_path_of_one_technique_passes_its_cap() {
         };
         let found = largest(&mut dice, |u: &[f64; 5]| asked_lx(&context, &surfaces, u));
         check("lamps", found, surfaces.lit_by_pointlikes(&engine));
-        for receiver in &engine.plan.receivers {
+        for receiver in &engine.receivers {
             let found = largest(&mut dice, |u: &[f64; 5]| joined_sr_m2(&surfaces, receiver, u));
             check("joins", found, surfaces.joined(receiver));
         }

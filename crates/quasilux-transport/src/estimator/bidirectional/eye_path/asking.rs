@@ -5,7 +5,7 @@ use super::{EyePath, EyePaths, EyeWeights};
 use crate::bsdf::TransportMode;
 use crate::estimator::bidirectional::engine::Engine;
 use crate::estimator::bidirectional::light_subpath::LightVertex;
-use crate::estimator::bidirectional::plan::{CONNECTED, FoundBy};
+use crate::estimator::bidirectional::plan::{CONNECTED, FoundBy, favour};
 use crate::lights::{Asking, Choice, ChosenPlace, DrawnDirection, EmitterPoint};
 use crate::path::subpath_weights::{of_connection, product};
 use crate::spectrum::Spectrum;
@@ -22,6 +22,8 @@ const CANDIDATES: usize = 4;
 pub(super) struct EyeVertex<'v, 'w, S> {
     pub(super) vertex: &'v Vertex<'w, S>,
     pub(super) weights: EyeWeights,
+    /// In its path, 0 for the target.
+    pub(super) number: usize,
 }
 
 impl<S: Spectrum> EyePath<'_, S> {
@@ -184,7 +186,7 @@ impl<S: Spectrum> EyePath<'_, S> {
             let line = engine.sources.pdf_line(vertex.position(), -direction, of_sun);
             let found_by = if of_sun { FoundBy::Photons } else { engine.sky_found_by };
             let landed = product(line * cos / pdf_sr, eye_vertex.to_eye(direction, found_by));
-            let hit = vertex.survival_pdf_sr(direction) / pdf_sr;
+            let hit = eye_vertex.survival_pdf_sr(direction) / pdf_sr;
             let lx = cd_m2 * cos / pdf_sr * of_connection(landed, hit);
             let light = vertex.weight(direction) * lx;
             let sample = LightSample::unless_dark(direction, outside.beyond_m(), light, lx)?;
@@ -278,13 +280,18 @@ impl<S: Spectrum> EyeVertex<'_, '_, S> {
         self.weights.select(found).towards(self.vertex.reverse_survival_pdf_sr(direction))
     }
 
+    /// Density in sr^-1 of paths that go on from here along `direction`, survival in it.
+    fn survival_pdf_sr(&self, direction: DVec3) -> f64 {
+        self.vertex.survival_pdf_sr(direction, favour(self.number))
+    }
+
     /// Densities in sr^-1 of the other techniques beside asking for a point of an emitting facet,
     /// over mirrors or not.
     fn beside_asked_sr(&self, engine: &Engine<'_, '_, S>, point: &EmitterPoint) -> f64 {
         let &EmitterPoint { direction, lx_sr, kept, .. } = point;
         let to_eye = self.to_eye(direction, engine.emitters_found_by);
         let landed = product(engine.sources.of_emitters_per_lm() * lx_sr, to_eye);
-        kept * (self.vertex.survival_pdf_sr(direction) + landed)
+        kept * (self.survival_pdf_sr(direction) + landed)
     }
 
     /// The part of the light of a lamp that photons leave, where it is asked with this probability.
@@ -316,11 +323,15 @@ impl<S: Spectrum> EyeVertex<'_, '_, S> {
         let scattered = bsdf.evaluate(*wo, wi, at.front, TransportMode::Importance);
         let cos_there = wi.z.abs();
         let to_light = product(
-            self.vertex.survival_pdf_sr(direction) * cos_there / square_m2,
-            weights.towards(bsdf.survival_pdf_sr(wi, *wo)),
+            self.survival_pdf_sr(direction) * cos_there / square_m2,
+            weights.numbered(self.number + 1).towards(bsdf.survival_pdf_sr(
+                wi,
+                *wo,
+                favour(self.number + 1),
+            )),
         );
         let to_eye = product(
-            bsdf.survival_pdf_sr(*wo, wi) * cos / square_m2,
+            bsdf.survival_pdf_sr(*wo, wi, 1.0) * cos / square_m2,
             self.to_eye(direction, *found_by),
         );
         let share = of_connection(to_eye / CONNECTED, to_light / CONNECTED);
