@@ -40,10 +40,17 @@ impl Dielectric {
             DVec3::new(-wo.x / eta, -wo.y / eta, -boundary.cos_refracted).normalize()
         };
         let scale = match mode {
-            TransportMode::Radiance if !is_reflected => 1.0 / (eta * eta),
+            TransportMode::Radiance if !is_reflected => self.radiance_scale(front),
             TransportMode::Radiance | TransportMode::Importance => 1.0,
         };
         BsdfSample { wi, weight: S::white() * scale, pdf_sr: None }
+    }
+
+    /// The factor on radiance that is followed through it, where it comes to the front or to the
+    /// back.
+    pub(super) fn radiance_scale(self, front: bool) -> f64 {
+        let eta = if front { self.eta } else { 1.0 / self.eta };
+        1.0 / (eta * eta)
     }
 }
 

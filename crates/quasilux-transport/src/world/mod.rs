@@ -78,6 +78,8 @@ pub(crate) struct World<S> {
     bsdfs: Vec<Bsdf<S>>,
     /// What each keeps at most of light from all sides.
     most_kept: Vec<f64>,
+    /// The same of the channel of which the most is kept.
+    most_survives: Vec<f64>,
     bvh: Arc<TriangleBvh>,
     /// The emitting facets again, where some lie flush in another surface: they come first there.
     flush_emitters: Option<FlushEmitters>,
@@ -124,6 +126,11 @@ impl<S: Spectrum> World<S> {
             facets,
             bsdfs: scene.materials.iter().map(|material| Bsdf::new(&material.bsdf)).collect(),
             most_kept: scene.materials.iter().map(|of| of.bsdf.most_kept().luminance()).collect(),
+            most_survives: scene
+                .materials
+                .iter()
+                .map(|of| of.bsdf.most_kept().max_channel())
+                .collect(),
             bvh: prepared.hierarchy_for(simd),
             flush_emitters: None,
             has_panes: false,
@@ -189,6 +196,11 @@ impl<S: Spectrum> World<S> {
     /// [`quasilux_scene::Bsdf::most_kept`].
     pub(crate) fn most_kept_by(&self, facet: &Facet) -> f64 {
         self.most_kept[facet.material as usize]
+    }
+
+    /// The same of the channel of which the most is left: the chance to survive there.
+    pub(crate) fn most_survives_at(&self, facet: &Facet) -> f64 {
+        self.most_survives[facet.material as usize]
     }
 
     /// Whether any material does not absorb all of it.

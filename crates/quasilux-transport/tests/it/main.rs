@@ -51,5 +51,6 @@ mod spotlight;
 mod states;
 mod terms;
 mod traps;
+mod unseen_bounds;
 mod witness;
 mod workers;

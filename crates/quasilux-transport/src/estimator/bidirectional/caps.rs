@@ -11,7 +11,7 @@ mod surfaces;
 
 use super::engine::Engine;
 use super::plan::{FoundBy, Receiver, SUBPATHS};
-use super::samples::{samples_at_emitters, samples_of_subpaths};
+use super::samples::{crossings_of_discs, samples_at_emitters, samples_of_subpaths};
 use super::sources::{PhotonFluxes, SKY_MARGIN};
 use crate::bsdf::Bsdf;
 use crate::spectrum::Spectrum;
@@ -25,7 +25,7 @@ use surfaces::Surfaces;
 /// Bounds of all targets.
 pub(super) struct Caps {
     of_targets: Vec<Cap>,
-    /// The same of eye paths alone, the same for all targets; infinite where they cannot make all
+    /// The same of eye paths alone, the largest of all targets; infinite where they cannot make all
     /// paths.
     of_eye_lx: f64,
 }
@@ -66,18 +66,23 @@ impl Caps {
         let surfaces = Surfaces::new(context);
         let no_bounce = context.max_bounces == Some(0);
         let samples = samples_of_subpaths(world);
+        let crossings = crossings_of_discs(world);
         let kinds = kinds(engine, &surfaces, samples);
         let has_specular = world.has_specular_facets();
         let of_target = |receiver: &Receiver| {
             let joined_sr_m2 = if no_bounce { 0.0 } else { surfaces.joined(receiver) };
-            let largest = |kind: &Kind, samples: f64| {
-                let class = Class { receiver, kind, joined_sr_m2, samples };
+            let largest = |kind: &Kind, samples: f64, crossings: f64| {
+                let class = Class { receiver, kind, joined_sr_m2, samples, crossings };
                 class.largest(&surfaces, has_specular, no_bounce)
             };
             let none = Cap { unseen_lx: 0.0, sample_lx: 0.0 };
             kinds.iter().fold(none, |cap, kind| Cap {
-                unseen_lx: cap.unseen_lx.max(largest(kind, samples)),
-                sample_lx: cap.sample_lx.max(largest(&Kind { eye_samples: 1.0, ..*kind }, 1.0)),
+                unseen_lx: cap.unseen_lx.max(largest(kind, samples, crossings)),
+                sample_lx: cap.sample_lx.max(largest(
+                    &Kind { eye_samples: 1.0, ..*kind },
+                    1.0,
+                    1.0,
+                )),
             })
         };
         let of_targets: Vec<Cap> = engine.receivers.par_iter().map(of_target).collect();
@@ -86,7 +91,9 @@ impl Caps {
         } else {
             let straight = |kind: &Kind| kind.straight_lx.unwrap_or(0.0);
             let of_kind = |kind: &Kind| straight(kind).max(kind.eye_samples * kind.eye_lx);
-            kinds.iter().map(of_kind).fold(0.0, f64::max)
+            let cells = engine.receivers.par_iter().filter(|it| it.is_cell());
+            let on_cells = cells.map(|it| surfaces.on_cell(it)).reduce(|| 0.0, f64::max);
+            kinds.iter().map(of_kind).fold(on_cells, f64::max)
         };
         Self { of_targets, of_eye_lx }
     }
@@ -111,11 +118,13 @@ impl Caps {
         self.of_targets.iter().enumerate().map(of_target).collect()
     }
 
-    /// The same of the average over targets: an eye path of one of m targets adds an m-th.
-    pub(super) fn unseen_of_average_lx(&self, point_lx: &[f64], trials: f64) -> f64 {
-        let mean = point_lx.iter().sum::<f64>() / point_lx.len().max(1) as f64;
+    /// The same of the average over targets of which each has so many trials at least: an eye path
+    /// of one of m targets adds an m-th.
+    pub(super) fn unseen_of_average_lx(&self, point_lx: &[f64], least_trials: f64) -> f64 {
+        let m = point_lx.len().max(1) as f64;
+        let mean = point_lx.iter().sum::<f64>() / m;
         let most = -libm::log(1.0 - UNSEEN_CONFIDENCE);
-        mean.min(most * self.of_eye_lx / trials)
+        mean.min(most * self.of_eye_lx / (m * least_trials))
     }
 }
 
@@ -128,6 +137,8 @@ struct Class<'c> {
     joined_sr_m2: f64,
     /// K of what has a sample at each vertex.
     samples: f64,
+    /// K of photons on the disc between two surfaces that scatter.
+    crossings: f64,
 }
 
 impl Class<'_> {
@@ -138,11 +149,11 @@ impl Class<'_> {
         has_specular: bool,
         no_bounce: bool,
     ) -> f64 {
-        let &Self { receiver, kind, samples, .. } = self;
+        let &Self { receiver, kind, samples, crossings, .. } = self;
         // Numbers of samples over K and their caps; light that comes straight is met once.
         let straight_disc = receiver.straight_m2(kind.is_of_emitters) / kind.flux_lm;
-        let disc = receiver.area_m2 / kind.flux_lm / samples;
-        let all_photons = receiver.photons(true, kind.found_by) / kind.flux_lm;
+        let disc = receiver.area_m2 / kind.flux_lm / (samples * crossings);
+        let all_photons = receiver.photons(true, kind.found_by) / kind.flux_lm / crossings;
         let joined = SUBPATHS as f64 / (kind.flux_lm * self.joined_sr_m2 * samples);
         let [eye, met] = [kind.eye_lx, kind.met_lx].map(|lx| (lx * kind.eye_samples).recip());
         let mut largest = 0.0_f64;

@@ -207,8 +207,8 @@ impl<S: Spectrum> Estimator for BidirectionalEstimator<'_, S> {
             let Some(unseen) = &mut sensor.unseen else { continue };
             let own = first..first + unseen.point_lx.len();
             first = own.end;
-            let trials = own.map(trials).sum();
-            unseen.average_lx = self.caps.unseen_of_average_lx(&unseen.point_lx, trials);
+            let least_trials = own.map(trials).fold(f64::INFINITY, f64::min);
+            unseen.average_lx = self.caps.unseen_of_average_lx(&unseen.point_lx, least_trials);
         }
         let Costs { paths, photons } = &self.costs;
         Estimates {

@@ -317,7 +317,9 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
             self.vertices += 1;
             self.asked_from = None;
         }
-        self.go_on(engine, at, &frame, &next, 1.0)
+        // Survival is by flux: radiance is scaled where it enters glass, and back where it leaves.
+        let scale = bsdf.radiance_scale(next.wi, at.front);
+        self.go_on(engine, at, &frame, &next, scale.recip())
     }
 
     /// What it weighs at a surface: light subpaths are joined to the target at the first, where

@@ -48,8 +48,16 @@ impl IntensityBound {
         }
     }
 
+    /// At least the illuminance in lx, on a plane square to the way, at any place of a hull.
+    pub(super) fn most_lx(&self, hull: &Hull<'_>) -> f64 {
+        let [near_m, _] = hull.distances_m;
+        let most_cd = self.most_cd(hull);
+        // A light that lies in the hull, and sends nothing there.
+        if most_cd == 0.0 { 0.0 } else { most_cd / (near_m * near_m) }
+    }
+
     /// At least the intensity in cd toward any place of a hull.
-    pub(super) fn most_cd(&self, hull: &Hull<'_>) -> f64 {
+    fn most_cd(&self, hull: &Hull<'_>) -> f64 {
         let Hull { centre, radius_m, corners, distances_m: [near_m, far_m] } = *hull;
         // Around the direction of its centre.
         let way = centre - self.position;
@@ -152,5 +160,16 @@ mod tests {
             let corners = corners.map(|it| 0.6 * it - 0.01 * light.pole);
             assert_eq!(light.most_cd(&hull(&corners)), 0.0);
         }
+    }
+
+    /// A lamp in the plane of a ceiling that it sends nothing along.
+    #[test]
+    fn lamps_in_a_surface_may_send_nothing_there() {
+        let mut lamp = IntensityBound { pole: DVec3::NEG_Z, ..downlight(0) };
+        lamp.most_cd[80..].fill(0.0);
+        let corners = [DVec3::new(2.0, 1.0, 0.0), DVec3::new(-2.0, 1.0, 0.0), DVec3::NEG_Y];
+        assert_eq!(lamp.most_lx(&hull(&corners)), 0.0);
+        let lower = corners.map(|it| it - DVec3::Z);
+        assert!(lamp.most_lx(&hull(&lower)) > 0.0);
     }
 }

@@ -8,17 +8,16 @@
 use crate::spectrum::Spectrum;
 use crate::world::{Facet, World};
 
+/// What glass turns back of the light that meets it, both faces of dense glass together, but at
+/// grazing incidence.
+const TURNED_BY_GLASS: f64 = 0.15;
+
 /// Of all techniques with a sample at each vertex: of surfaces that scatter.
 pub(super) fn samples_of_subpaths<S: Spectrum>(world: &World<S>) -> f64 {
     let scattering = || world.facets.iter().filter(|facet| !world.bsdf_of(facet).is_specular());
-    let kept = |facet: &Facet| world.most_kept_by(facet).min(1.0);
+    let kept = |facet: &Facet| world.most_survives_at(facet).min(1.0);
     let Some(first) = scattering().max_by(|a, b| kept(a).total_cmp(&kept(b))) else { return 1.0 };
-    let [corner, ..] = first.corners();
-    let height_m = |facet: &Facet| {
-        let heights = facet.corners().map(|place| first.front_normal.dot(place - corner).abs());
-        heights.into_iter().fold(0.0, f64::max)
-    };
-    let others = || scattering().filter(|facet| height_m(facet) > world.hair_m());
+    let others = || scattering().filter(|facet| is_off_plane(world, first, facet));
     let most = kept(first);
     let after = match world.has_specular_facets() {
         true => most,
@@ -27,10 +26,30 @@ pub(super) fn samples_of_subpaths<S: Spectrum>(world: &World<S>) -> f64 {
     (1.0 + most) / (1.0 - most * after)
 }
 
+/// Of photons on a disc, between two surfaces that scatter: a photon that has crossed it from its
+/// front comes there again by two specular surfaces, not of one plane, at least.
+pub(super) fn crossings_of_discs<S: Spectrum>(world: &World<S>) -> f64 {
+    let specular = || world.facets.iter().filter(|facet| world.bsdf_of(facet).is_specular());
+    let turned = |facet: &Facet| match world.bsdf_of(facet).transmits() {
+        true => TURNED_BY_GLASS,
+        false => world.most_survives_at(facet).min(1.0),
+    };
+    let Some(first) = specular().max_by(|a, b| turned(a).total_cmp(&turned(b))) else { return 1.0 };
+    let others = specular().filter(|facet| is_off_plane(world, first, facet));
+    (1.0 - turned(first) * others.map(turned).fold(0.0, f64::max)).recip()
+}
+
+/// Whether a facet reaches out of the plane of another.
+fn is_off_plane<S: Spectrum>(world: &World<S>, plane: &Facet, facet: &Facet) -> bool {
+    let [corner, ..] = plane.corners();
+    let heights_m = facet.corners().map(|place| plane.front_normal.dot(place - corner).abs());
+    heights_m.into_iter().fold(0.0, f64::max) > world.hair_m()
+}
+
 /// Of eye paths that run into emitting facets: the first of them may send it on, and then it has as
 /// many as all `subpaths`.
 pub(super) fn samples_at_emitters<S: Spectrum>(world: &World<S>, subpaths: f64) -> f64 {
     let emitting = world.facets.iter().filter(|facet| facet.emitted_cd_m2 > 0.0);
-    let most = emitting.map(|facet| world.most_kept_by(facet).min(1.0)).fold(0.0, f64::max);
+    let most = emitting.map(|facet| world.most_survives_at(facet).min(1.0)).fold(0.0, f64::max);
     1.0 + if most > 0.0 { most * subpaths } else { 0.0 }
 }

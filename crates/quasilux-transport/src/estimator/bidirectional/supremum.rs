@@ -95,7 +95,7 @@ pub(super) fn supremum<S: Spectrum>(
 
 /// The same over some triangles.
 pub(super) fn supremum_over(parts: impl Iterator<Item = SeenPart>, value: &impl Bounded) -> f64 {
-    let open = parts.map(|it| Open { bound: value.over_part(&it), what: What::Part(it) });
+    let open = parts.map(|it| Open { bound: f64::INFINITY, what: What::Part(it) });
     search(open.collect(), value, |_| Vec::new(), |_| 0.0)
 }
 
@@ -123,6 +123,8 @@ fn search(
                     value.over_part(part)
                 }
             };
+            // Of what is no number nothing is known.
+            let bound = if bound.is_nan() { f64::INFINITY } else { bound };
             (bound > 0.0).then_some(Open { bound, what })
         }));
     }

@@ -142,7 +142,7 @@ impl<S: Spectrum> Lit<'_, '_, S> {
             let height_m = n.dot(light.position - a).abs();
             let hull = hull_from(light.position);
             let [near_m, far_m] = hull.distances_m;
-            let lx = light.most_cd(&hull) / (near_m * near_m);
+            let lx = light.most_lx(&hull);
             normal_lx += lx;
             if height_m == 0.0 || lx == 0.0 {
                 continue;
@@ -185,7 +185,7 @@ impl<S: Spectrum> Bounded for Lit<'_, '_, S> {
             let near_m = (light.position - light.position.clamp(low, high)).length();
             let far_m = light.position.distance(centre) + radius_m;
             let distances_m = [near_m, far_m];
-            light.most_cd(&Hull { corners, centre, radius_m, distances_m }) / (near_m * near_m)
+            light.most_lx(&Hull { corners, centre, radius_m, distances_m })
         };
         PI * peaks * self.lights.iter().map(of_light).sum::<f64>()
     }
