@@ -322,9 +322,8 @@ impl<S: Spectrum> Bsdf<S> {
 
     /// Density in sr^-1 of going on along `wi` after `wo`: that of [`Self::sample`] times the
     /// chance to survive there with `favour` times the weight of the sample, `min(pdf, favour f
-    /// cos)`. Of measured
-    /// sheets, whose sides have frames of their own, that of a Lambertian surface, so that it is a
-    /// function of the two directions alone. 0 for mirror directions.
+    /// cos)`. Of measured sheets, whose sides have frames of their own, that of a Lambertian
+    /// surface, so that it is a function of the two directions alone. 0 for mirror directions.
     pub(crate) fn survival_pdf_sr(&self, wo: DVec3, wi: DVec3, favour: f64) -> f64 {
         // Seen from the side of `wo`; what has two sides scatters alike on both.
         let side = 1.0_f64.copysign(wo.z);

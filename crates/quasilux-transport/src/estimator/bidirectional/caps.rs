@@ -37,6 +37,8 @@ struct Cap {
     unseen_lx: f64,
     /// W: the most that a sample of a technique that is used wherever it can be adds.
     sample_lx: f64,
+    /// The most that a light without extent gives straight to a cell; 0 of points.
+    on_cell_lx: f64,
 }
 
 /// The light of one kind of lights.
@@ -71,11 +73,12 @@ impl Caps {
         let has_specular = world.has_specular_facets();
         let of_target = |receiver: &Receiver| {
             let joined_sr_m2 = if no_bounce { 0.0 } else { surfaces.joined(receiver) };
+            let on_cell_lx = if receiver.is_cell() { surfaces.on_cell(receiver) } else { 0.0 };
             let largest = |kind: &Kind, samples: f64, crossings: f64| {
-                let class = Class { receiver, kind, joined_sr_m2, samples, crossings };
+                let class = Class { receiver, kind, joined_sr_m2, on_cell_lx, samples, crossings };
                 class.largest(&surfaces, has_specular, no_bounce)
             };
-            let none = Cap { unseen_lx: 0.0, sample_lx: 0.0 };
+            let none = Cap { unseen_lx: 0.0, sample_lx: 0.0, on_cell_lx };
             kinds.iter().fold(none, |cap, kind| Cap {
                 unseen_lx: cap.unseen_lx.max(largest(kind, samples, crossings)),
                 sample_lx: cap.sample_lx.max(largest(
@@ -83,6 +86,7 @@ impl Caps {
                     1.0,
                     1.0,
                 )),
+                ..cap
             })
         };
         let of_targets: Vec<Cap> = engine.receivers.par_iter().map(of_target).collect();
@@ -91,8 +95,7 @@ impl Caps {
         } else {
             let straight = |kind: &Kind| kind.straight_lx.unwrap_or(0.0);
             let of_kind = |kind: &Kind| straight(kind).max(kind.eye_samples * kind.eye_lx);
-            let cells = engine.receivers.par_iter().filter(|it| it.is_cell());
-            let on_cells = cells.map(|it| surfaces.on_cell(it)).reduce(|| 0.0, f64::max);
+            let on_cells = of_targets.iter().map(|cap| cap.on_cell_lx).fold(0.0, f64::max);
             kinds.iter().map(of_kind).fold(on_cells, f64::max)
         };
         Self { of_targets, of_eye_lx }
@@ -135,6 +138,7 @@ struct Class<'c> {
     /// The most that a lumen at a light vertex gives where it is joined, over the chance of that,
     /// in sr^-1 m^-2.
     joined_sr_m2: f64,
+    on_cell_lx: f64,
     /// K of what has a sample at each vertex.
     samples: f64,
     /// K of photons on the disc between two surfaces that scatter.
@@ -161,7 +165,7 @@ impl Class<'_> {
             largest = largest.max(if counts > 0.0 { counts.recip() } else { f64::INFINITY });
         };
         let straight_lx = match receiver.target {
-            Target::Cell { .. } => kind.straight_lx.or_else(|| Some(surfaces.on_cell(receiver))),
+            Target::Cell { .. } => kind.straight_lx.or(Some(self.on_cell_lx)),
             Target::Point { .. } => kind.straight_lx,
         };
         if let Some(straight_lx) = straight_lx {
