@@ -257,6 +257,14 @@ impl<S: Spectrum> Bsdf<S> {
         }
     }
 
+    /// How many times brighter radiance is in a body of it than outside.
+    pub(crate) fn scale_inside(&self) -> f64 {
+        match self {
+            Self::Dielectric(dielectric) => dielectric.radiance_scale(false),
+            _ => 1.0,
+        }
+    }
+
     /// Draws the direction in which light goes on; `None` where none does. What choices left of the
     /// open coordinate is used first.
     #[inline(always)]

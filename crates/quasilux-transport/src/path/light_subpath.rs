@@ -260,7 +260,7 @@ pub(crate) fn scattered<S: Spectrum>(
     wi: DVec3,
 ) -> SubpathWeights {
     if bsdf.is_specular() {
-        return weights.mirrored(wi.z.abs());
+        return weights.mirrored(wi.z.abs(), 1.0);
     }
     let [pdf_sr, reverse_pdf_sr] = [bsdf.partition_pdf_sr(wo, wi), bsdf.partition_pdf_sr(wi, wo)];
     weights.scattered(wi.z.abs(), pdf_sr, reverse_pdf_sr)

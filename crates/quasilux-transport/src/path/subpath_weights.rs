@@ -69,9 +69,11 @@ impl SubpathWeights {
         Self { vcm: 1.0 / pdf_sr, vc: cos / pdf_sr * self.towards(reverse_pdf_sr) }
     }
 
-    /// After one of finitely many directions was taken, at this cosine.
-    pub(crate) fn mirrored(self, cos: f64) -> Self {
-        Self { vcm: 0.0, vc: self.vc * cos }
+    /// After one of finitely many directions was taken: `cos` is that of the direction in which it
+    /// came, `scale` how many times brighter radiance is behind than before. Where light is bent,
+    /// densities of directions go with both: `n^2 cos dw` is the same on both sides.
+    pub(crate) fn mirrored(self, cos: f64, scale: f64) -> Self {
+        Self { vcm: 0.0, vc: self.vc * cos * scale }
     }
 
     /// After a way between two vertices, perhaps over plane mirrors or through panes, where each

@@ -159,7 +159,9 @@ impl Class<'_> {
         let disc = receiver.area_m2 / kind.flux_lm / (samples * crossings);
         let all_photons = receiver.photons(true, kind.found_by) / kind.flux_lm / crossings;
         let joined = SUBPATHS as f64 / (kind.flux_lm * self.joined_sr_m2 * samples);
-        let [eye, met] = [kind.eye_lx, kind.met_lx].map(|lx| (lx * kind.eye_samples).recip());
+        let scale = receiver.radiance_scale;
+        let [eye, met] =
+            [kind.eye_lx, kind.met_lx].map(|lx| (lx * scale * kind.eye_samples).recip());
         let mut largest = 0.0_f64;
         let mut class = |counts: f64| {
             largest = largest.max(if counts > 0.0 { counts.recip() } else { f64::INFINITY });
@@ -169,7 +171,7 @@ impl Class<'_> {
             Target::Point { .. } => kind.straight_lx,
         };
         if let Some(straight_lx) = straight_lx {
-            class(straight_lx.recip() + straight_disc);
+            class((straight_lx * scale).recip() + straight_disc);
         }
         if no_bounce {
             return largest;

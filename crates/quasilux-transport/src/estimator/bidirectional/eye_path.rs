@@ -308,17 +308,17 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
         let mirrored = self.mirrored.take().filter(|_| next.wi.z > 0.0);
         self.mirrored = mirrored.and_then(|from| from.past(engine.context, at, bsdf, wo.z));
         let goes_straight = next.wi.z < 0.0 && bsdf.straight_transmittance(1.0).is_some();
+        // Survival is by flux: radiance is scaled where it enters glass, and back where it leaves.
+        let scale = bsdf.radiance_scale(next.wi, at.front);
         if goes_straight {
             self.distance_m += at.distance_m;
         } else {
             let here = self.beside_light_subpaths(arrived, None);
-            self.weights = here.map(|it| it.mirrored(next.wi.z.abs()));
+            self.weights = here.map(|it| it.mirrored(wo.z.abs(), scale));
             self.distance_m = 0.0;
             self.vertices += 1;
             self.asked_from = None;
         }
-        // Survival is by flux: radiance is scaled where it enters glass, and back where it leaves.
-        let scale = bsdf.radiance_scale(next.wi, at.front);
         self.go_on(engine, at, &frame, &next, scale.recip())
     }
 

@@ -228,7 +228,8 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
             } else {
                 let weights = self.weights_at(engine, at, bsdf, wo.z);
                 let last = LastVertex::Surface { cos: next.wi.z.abs(), is_narrow: true };
-                let weights = weights.mirrored(next.wi.z.abs());
+                let scale = bsdf.radiance_scale(next.wi, at.front);
+                let weights = weights.mirrored(wo.z.abs(), scale);
                 let class = self.leg.class;
                 let mirrored = self.leg.mirrored.take().filter(|_| next.wi.z > 0.0);
                 let mirrored = mirrored.and_then(|way| way.past(context, at, bsdf, wo.z));

@@ -43,9 +43,9 @@ impl LightWeights {
         })
     }
 
-    /// After one of finitely many directions was taken, at this cosine.
-    pub(super) fn mirrored(&self, cos: f64) -> Self {
-        self.followed(|before, _| before.mirrored(cos))
+    /// After one of finitely many directions was taken: [`SubpathWeights::mirrored`].
+    pub(super) fn mirrored(&self, cos: f64, scale: f64) -> Self {
+        self.followed(|before, _| before.mirrored(cos, scale))
     }
 
     /// Of the next vertex, by what this one weighed, and whether eye paths favour this one.
