@@ -248,8 +248,8 @@ impl<S: Spectrum> Bsdf<S> {
         }
     }
 
-    /// The factor on radiance that is followed to where `wi` leads, of media alone: what is in glass
-    /// is brighter, and nothing is lost.
+    /// The factor on radiance that is followed to where `wi` leads, of media alone: what is in
+    /// glass is brighter, and nothing is lost.
     pub(crate) fn radiance_scale(&self, wi: DVec3, front: bool) -> f64 {
         match self {
             Self::Dielectric(dielectric) if wi.z < 0.0 => dielectric.radiance_scale(front),

@@ -12,7 +12,7 @@ use crate::context::Context;
 use crate::spectrum::Spectrum;
 use crate::stats::targets::Target;
 use crate::world::grid_plane::GridPlane;
-use crate::world::{RayOrigin, World};
+use crate::world::{Interaction, RayOrigin, World};
 use glam::DVec3;
 use serde::Serialize;
 use std::f64::consts::{PI, TAU};
@@ -91,7 +91,8 @@ pub(super) struct Receiver {
     /// The part of the disc, around the same centre, on which photons count that come straight from
     /// emitting facets; 1 for cells.
     pub(super) emitters_part: f64,
-    /// How many times brighter radiance is than in air, at most: in glass by the square of its index.
+    /// How many times brighter radiance is than in air, at most: in glass by the square of its
+    /// index.
     pub(super) radiance_scale: f64,
     /// In m^2: a join is made for certain where cosines over squared distance are one over it.
     pub(super) per_sure_m2: f64,
@@ -121,10 +122,30 @@ pub(super) fn connected(target: usize, index: u64) -> u64 {
     (target as u64).wrapping_add(index) % SUBPATHS
 }
 
-/// How many times brighter radiance is around a place than in air, as what a ray meets there tells.
-fn medium_around<S: Spectrum>(world: &World<S>, from: RayOrigin, direction: DVec3) -> f64 {
-    let met_from_inside = world.trace(from, direction).filter(|at| !at.front);
-    met_from_inside.map_or(1.0, |at| world.bsdf(&at).scale_inside())
+/// What rays meet around a point with the normal `n`.
+struct Around {
+    /// How far it is to the nearest wall in its plane.
+    free_m: f64,
+    /// How many times brighter radiance is there than in air, as surfaces tell that are met from
+    /// inside.
+    radiance_scale: f64,
+}
+
+impl Around {
+    fn new<S: Spectrum>(world: &World<S>, from: RayOrigin, n: DVec3) -> Self {
+        let across = n.any_orthonormal_vector();
+        let beside = n.cross(across);
+        let directions = (0..LOOKS).map(|look| {
+            let (sin, cos) = libm::sincos(TAU * f64::from(look) / f64::from(LOOKS));
+            across * cos + beside * sin
+        });
+        let met: Vec<Interaction> = directions.filter_map(|it| world.trace(from, it)).collect();
+        let free_m = met.iter().map(|at| at.distance_m).fold(f64::INFINITY, f64::min);
+        let before = world.trace(from, n);
+        let from_inside = met.iter().chain(&before).filter(|at| !at.front);
+        let scales = from_inside.map(|at| world.bsdf(at).scale_inside());
+        Self { free_m, radiance_scale: scales.fold(1.0, f64::max) }
+    }
 }
 
 impl Receiver {
@@ -141,17 +162,8 @@ impl Receiver {
         match *target {
             Target::Point { position, normal: n } => {
                 let from = world.ray_origin_of_sensor(position, n);
-                let across = n.any_orthonormal_vector();
-                let beside = n.cross(across);
-                let mut radiance_scale = medium_around(world, from, n);
-                let free_m = (0..LOOKS).map(|look| {
-                    let (sin, cos) = libm::sincos(TAU * f64::from(look) / f64::from(LOOKS));
-                    let direction = across * cos + beside * sin;
-                    radiance_scale = radiance_scale.max(medium_around(world, from, direction));
-                    let hit = world.trace(from, direction);
-                    hit.map_or(f64::INFINITY, |at| at.distance_m)
-                });
-                let radius_m = free_m.fold(largest_radius_m(world), f64::min).max(world.hair_m());
+                let Around { free_m, radiance_scale } = Around::new(world, from, n);
+                let radius_m = largest_radius_m(world).min(free_m).max(world.hair_m());
                 let area_m2 = PI * radius_m * radius_m;
                 let near_m = SHARE_OF_DISTANCE * emitting.distance_m(from.position(), n);
                 let share = (near_m / radius_m).min(1.0);
