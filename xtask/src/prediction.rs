@@ -10,11 +10,6 @@ const FACTOR: f64 = 1.5;
 /// Checks `run.prediction` of a result document.
 pub(crate) fn check(result: &Value) -> Result<(), Failure> {
     let prediction = &result["run"]["prediction"];
-    // Points that are taken over begin anew, perhaps too late for a prediction of their own.
-    let relieved = result["run"]["decisions"]["relieved_points"].as_u64().unwrap_or(0);
-    if prediction["half_width_ratio"].is_null() && relieved > 0 {
-        return Ok(());
-    }
     let ratio = prediction["half_width_ratio"].as_f64().ok_or("no half-width was predicted")?;
     if (1.0 / FACTOR..=FACTOR).contains(&ratio) {
         return Ok(());

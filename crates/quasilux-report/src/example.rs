@@ -237,7 +237,6 @@ fn scene_and_estimates(sensors: Vec<(Sensor, Vec<Vec<f64>>)>) -> (Scene, Estimat
             against_prediction: Some(1.1),
         },
         unresolved_points: 0,
-        relieved_points: 0,
         biased: false,
         cannot_see: Vec::new(),
         warnings: Vec::new(),

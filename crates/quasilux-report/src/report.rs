@@ -169,8 +169,6 @@ pub struct Run {
     pub cannot_see: Vec<String>,
     /// What surveys and pilots decided before the first sample.
     pub decisions: Decisions,
-    /// Sensor points that bidirectional paths took over from what pilots selected.
-    pub relieved_points: u64,
     /// How half-widths shrank, and the cost that this predicts.
     pub convergence: Convergence,
     /// Numbers of coordinates that photons and paths used.
@@ -229,7 +227,6 @@ impl Report {
                 sensors_reached: estimates.sensors_reached,
                 cannot_see: estimates.cannot_see.clone(),
                 decisions: estimates.decisions.clone(),
-                relieved_points: estimates.relieved_points,
                 convergence: estimates.convergence,
                 dimensions: estimates.dimensions.clone(),
                 flux: estimates.flux,

@@ -98,10 +98,10 @@ pub(crate) enum Stream {
     Meshes,
     /// Eye subpaths from one sensor point, numbered through all sensors.
     EyeSubpaths(u64),
-    /// Light subpaths for the same sensor point.
-    LightSubpaths(u64),
     /// Light subpaths that serve all sensor points.
     SharedSubpaths,
+    /// Pilots of those, left out of the estimate.
+    SubpathPilots,
     /// Which vertices of them are joined to a sensor point, and where in its cell, numbered through
     /// all sensors.
     Joins(u64),
@@ -134,6 +134,7 @@ impl Stream {
             Self::WitnessPlaces => u64::MAX - 67,
             Self::PictureLights => u64::MAX - 68,
             Self::SharedSubpaths => u64::MAX - 70,
+            Self::SubpathPilots => u64::MAX - 71,
             Self::Joins(point) => (7 << 60) + point,
             Self::WitnessPaths(point) => (1 << 61) + point,
             Self::SunDisks(point) => (3 << 60) + point,
@@ -141,7 +142,6 @@ impl Stream {
             Self::Meshes => u64::MAX - 69,
             Self::Paths(point) => 2 + point,
             Self::EyeSubpaths(point) => (1 << 60) + 2 * point,
-            Self::LightSubpaths(point) => (1 << 60) + 2 * point + 1,
             Self::Pixel { camera, pixel } => 1 << 63 | u64::from(camera) << 32 | u64::from(pixel),
         }
     }
@@ -172,8 +172,8 @@ impl Stream {
                 | Self::Meshes
                 | Self::EyeSubpaths(_)
                 | Self::SharedSubpaths
-                | Self::Joins(_)
-                | Self::LightSubpaths(_),
+                | Self::SubpathPilots
+                | Self::Joins(_),
                 Sequence::Hammersley { .. },
             ) => Sequence::Halton,
             _ => of_run,
@@ -301,8 +301,8 @@ mod tests {
     fn streams_have_numbers_of_their_own() {
         use Stream::{
             CausticPhotons, CellPhotons, ConnectedPhotons, ConnectionPlaces, DaylightPaths,
-            EyeSubpaths, FirstShotPilots, Joins, LightSubpaths, MapPilots, Meshes, Paths, Photons,
-            PictureLights, PlanPhotons, SharedSubpaths, SunDisks, Survey, WindowPilots,
+            EyeSubpaths, FirstShotPilots, Joins, MapPilots, Meshes, Paths, Photons, PictureLights,
+            PlanPhotons, SharedSubpaths, SubpathPilots, SunDisks, Survey, WindowPilots,
             WitnessPaths, WitnessPhotons, WitnessPlaces,
         };
         let single =
@@ -319,14 +319,20 @@ mod tests {
                 DaylightPaths,
                 SunDisks,
                 EyeSubpaths,
-                LightSubpaths,
                 Joins,
                 WitnessPaths,
             ]
             .map(|stream| stream(number))
         });
-        let others =
-            [CellPhotons, WitnessPhotons, WitnessPlaces, PictureLights, Meshes, SharedSubpaths];
+        let others = [
+            CellPhotons,
+            WitnessPhotons,
+            WitnessPlaces,
+            PictureLights,
+            Meshes,
+            SharedSubpaths,
+            SubpathPilots,
+        ];
         let streams = single.into_iter().chain(others).chain(numbered);
         let streams = streams.chain(numbers(62).map(Survey)).chain(pixels);
         let mut ids: Vec<u64> = streams.map(Stream::id).collect();

@@ -8,8 +8,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum EstimatorKind {
-    /// The ways of [`Self::Selected`], beside bidirectional paths that share no pilot with
-    /// them: these take over the sensor points where the two disagree.
+    /// [`Self::Bidirectional`].
     Auto,
     /// Photons from the lights are counted by the sensors.
     Photon,
@@ -42,7 +41,13 @@ impl EstimatorKind {
     /// Whether pilots select between paths alone, on a frozen map and beside connected photons.
     #[must_use]
     pub fn is_selected_by_pilots(self) -> bool {
-        matches!(self, Self::Auto | Self::Selected)
+        self == Self::Selected
+    }
+
+    /// Whether it bounds the light that no sample met.
+    #[must_use]
+    pub fn is_bounded(self) -> bool {
+        matches!(self, Self::Auto | Self::Bidirectional)
     }
 
     /// The name in project files, on the command line and in results.

@@ -16,10 +16,8 @@
 //! sample met, with `unseen_confidence`, `merged_lx`, the part of the value that is known as a mean
 //! over a disc of `disc_radius_m` around the point; `unseen_tol` is a share or "off", and
 //! `cannot_see` has the classes of light paths that the estimator cannot make.
-//! Then `decisions`, what pilots made of the
-//! settings (what they `selected` and why, how many points bidirectional paths took over from that
-//! (`relieved_points`), photons connected for each path (`connected_photons`), whether photons
-//! follow `importance` and leave lit places, sides of elements of the map that paths end on,
+//! Then `decisions`, what pilots made of the settings (what they `selected` and why, photons
+//! connected for each path (`connected_photons`), whether photons follow `importance` and leave lit places, sides of elements of the map that paths end on,
 //! photons for each path that look for light which paths cannot find; `null` where there are none),
 //! `prediction` (see `prediction.rs`), `flux_cut_lm`, the flux that `max_bounces` cut, and
 //! `dimension_counts`: how many photons and paths used 0, 1, 2, .. coordinates, in one list each,
@@ -186,7 +184,6 @@ struct DecisionsEntry {
     /// What pilots selected, and why, in words.
     selected: &'static str,
     /// Sensor points that bidirectional paths took over from it.
-    relieved_points: u64,
     connected_photons: Option<u64>,
     importance: bool,
     first_shot: bool,
@@ -244,7 +241,7 @@ impl<'a> SensorEntry<'a> {
 
 impl DecisionsEntry {
     fn new(run: &Run, has_sensors: bool) -> Self {
-        let (decisions, relieved_points) = (&run.decisions, run.relieved_points);
+        let decisions = &run.decisions;
         let selected = match has_sensors {
             true => selected(run.settings.estimator, decisions),
             false => "nothing: there are cameras alone, whose pictures are made by plain paths",
@@ -257,15 +254,7 @@ impl DecisionsEntry {
             caustic_photons,
             digest: _,
         } = *decisions;
-        Self {
-            selected,
-            relieved_points,
-            connected_photons,
-            importance,
-            first_shot,
-            map_elements,
-            caustic_photons,
-        }
+        Self { selected, connected_photons, importance, first_shot, map_elements, caustic_photons }
     }
 }
 

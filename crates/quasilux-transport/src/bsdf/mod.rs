@@ -314,20 +314,6 @@ impl<S: Spectrum> Bsdf<S> {
         }
     }
 
-    /// The density in sr^-1 that partition weights of bidirectional paths take for `wi` after `wo`,
-    /// whichever side each of them is on: that of [`Self::sample`], but where frames of the two
-    /// sides differ that of a Lambertian surface, so that it is a function of the two directions
-    /// alone.
-    pub(crate) fn partition_pdf_sr(&self, wo: DVec3, wi: DVec3) -> f64 {
-        match self {
-            Self::Diffuse(diffuse) => diffuse.pdf_sr(wi),
-            Self::Mirror(_) | Self::Dielectric(_) | Self::Pane(_) => 0.0,
-            Self::Conductor(conductor) => conductor.pdf_sr(wo, wi),
-            Self::Plastic(plastic) => plastic.pdf_sr(wo, wi),
-            Self::Translucent(_) | Self::Measured(_) => FRAC_1_PI * wi.z.abs(),
-        }
-    }
-
     /// Density in sr^-1 of going on along `wi` after `wo`: that of [`Self::sample`] times the
     /// chance to survive there with `favour` times the weight of the sample, `min(pdf, favour f
     /// cos)`. Of measured sheets, whose sides have frames of their own, that of a Lambertian

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) enum BlockFrame {
     /// Paths of all growing targets and replicates, put in one row.
-    Paths { role: PathRole, progress: PathProgress },
+    Paths { progress: PathProgress },
     /// Photons that are connected to targets, by the indices that they belong to.
     ConnectedPhotons { progress: PathProgress },
     /// Photons that sensors count, by index.
@@ -19,24 +19,12 @@ pub(crate) enum BlockFrame {
     Bidirectional { progress: PathProgress },
 }
 
-/// What a path estimator is for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub(crate) enum PathRole {
-    /// It makes the estimates.
-    Selected,
-    /// It watches the one that does.
-    Probe,
-    /// It takes over sensor points.
-    Relief,
-}
-
 /// How far a path estimator is: on which paths and photons come next.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct PathProgress {
     /// Indices of the last checkpoint, and of the coming one.
     pub(crate) samples: u64,
     pub(crate) coming: u64,
-    /// Of each target, the index that it begins with and the one that it ends before.
-    pub(crate) begins: Vec<Option<u64>>,
+    /// Of each target that gets no more, the index that it ends before.
     pub(crate) ends: Vec<Option<u64>>,
 }

@@ -1,6 +1,5 @@
 //! Estimators of sensor values, and the selection between them by pilots.
 
-pub(crate) mod auto;
 mod bidirectional;
 pub(crate) mod block;
 pub(crate) mod connection;
@@ -14,7 +13,6 @@ pub(crate) mod witness;
 
 use crate::codec::{Reader, StateError, Writer};
 use crate::context::Context;
-use crate::estimator::auto::AutoEstimator;
 use crate::estimator::bidirectional::BidirectionalEstimator;
 use crate::estimator::block::BlockFrame;
 use crate::estimator::path_estimator::PathEstimator;
@@ -23,7 +21,6 @@ use crate::settings::{EstimatorKind, Settings};
 use crate::spectrum::Spectrum;
 use crate::stats::decisions::Decisions;
 use crate::stats::estimates::Estimates;
-use crate::stats::tolerance::Standing;
 use crate::stats::watch::Watch;
 use quasilux_scene::Scene;
 use std::ops::Range;
@@ -79,12 +76,6 @@ pub(crate) trait Estimator {
         false
     }
 
-    /// After a checkpoint with these estimates that did not end the run: chooses anew how each
-    /// target is estimated; whether all that go on begin anew.
-    fn adapt(&mut self, _estimates: &Estimates, _standing: &Standing) -> bool {
-        false
-    }
-
     /// Indices per replicate of the first checkpoint: enough to plan by, little work.
     fn first_checkpoint(&self) -> u64;
 }
@@ -98,8 +89,7 @@ pub(crate) fn new_estimator<'a, S: Spectrum>(
 ) -> Box<dyn Estimator + 'a> {
     match settings.estimator {
         EstimatorKind::Photon => Box::new(PhotonEstimator::new(context, scene, settings)),
-        EstimatorKind::Auto => Box::new(AutoEstimator::new(context, scene, settings, watch)),
-        EstimatorKind::Bidirectional => {
+        EstimatorKind::Auto | EstimatorKind::Bidirectional => {
             Box::new(BidirectionalEstimator::new(context, scene, settings))
         }
         EstimatorKind::Path | EstimatorKind::Selected | EstimatorKind::BidirectionalMap => {

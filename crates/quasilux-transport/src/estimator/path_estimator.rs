@@ -12,7 +12,7 @@ use crate::codec::{Reader, StateError, Writer};
 use crate::context::{Context, Stream};
 use crate::cutoff;
 use crate::estimator::Estimator;
-use crate::estimator::block::{BlockFrame, PathRole};
+use crate::estimator::block::BlockFrame;
 use crate::estimator::connection::LightVertexConnections;
 use crate::estimator::exact::{Exact, exact};
 use crate::estimator::pilot::Request;
@@ -52,9 +52,6 @@ pub(crate) struct PathEstimator<'a, S> {
     caustics: Option<CausticMap<S>>,
     /// Photons that find a part of the light.
     light_vertices: Option<LightVertexConnections>,
-    /// Whether each path is an eye subpath that is connected to a light subpath of its own.
-    is_bidirectional: bool,
-    role: PathRole,
     replicates: u32,
     quantum: Quantum,
     /// Of target t in replicate r at `t * replicates + r`.
@@ -70,8 +67,6 @@ pub(crate) struct PathEstimator<'a, S> {
     map_samples: u64,
     /// Targets that get more paths, in order.
     growing: Vec<usize>,
-    /// The index that each target begins with; `None` before it does.
-    begins: Vec<Option<u64>>,
     /// Of each target that gets no more, the index that it ends before.
     ends: Vec<Option<u64>>,
     /// Paths that are over since then, in the order of `sums`.
@@ -91,15 +86,6 @@ pub(crate) struct PathEstimator<'a, S> {
     last_lx: Vec<Option<f64>>,
 }
 
-/// What comes before the first path.
-struct Plan<S> {
-    light_vertices: Option<LightVertexConnections>,
-    prepared: Prepared<S>,
-    /// Rays of surveys and pilots.
-    rays: u64,
-    is_bidirectional: bool,
-}
-
 /// What was traced.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 struct Costs {
@@ -115,35 +101,6 @@ impl<'a, S: Spectrum> PathEstimator<'a, S> {
         settings: &Settings,
         watch: &mut Watch<'_>,
     ) -> Self {
-        Self::built(context, scene, settings, |request| {
-            let Decision { light_vertices, frozen, photons, rays } =
-                decide(context, request, watch);
-            let pilots = EndPilots { frozen, photons };
-            let prepared = PathEnd::prepare(context, settings, request.targets, pilots, watch);
-            Plan { light_vertices, prepared, rays, is_bidirectional: false }
-        })
-    }
-
-    /// Bidirectional paths, which need no survey and no pilot.
-    pub(crate) fn bidirectional(
-        context: &'a Context<'a, S>,
-        scene: &'a Scene,
-        settings: &Settings,
-    ) -> Self {
-        Self::built(context, scene, settings, |_| Plan {
-            light_vertices: None,
-            prepared: Prepared { end: PathEnd::Nothing, counts: PhotonCounts::default() },
-            rays: 0,
-            is_bidirectional: true,
-        })
-    }
-
-    fn built(
-        context: &'a Context<'a, S>,
-        scene: &'a Scene,
-        settings: &Settings,
-        plan: impl FnOnce(&Request<'_>) -> Plan<S>,
-    ) -> Self {
         let targets = targets(scene);
         let replicates = settings.effective_replicates();
         let mut work = WorkCounts::default();
@@ -157,9 +114,11 @@ impl<'a, S: Spectrum> PathEstimator<'a, S> {
         let samples_direct = targets.iter().map(|target| samples_direct(context, target)).collect();
         let quantum = Quantum::for_reference(context.lights.reference_lx(&context.world));
         let request = Request { settings, replicates, targets: &targets, exact: &exact, quantum };
-        let Plan { light_vertices, prepared, rays, is_bidirectional } = plan(&request);
+        let Decision { light_vertices, frozen, photons, rays } = decide(context, &request, watch);
+        let pilots = EndPilots { frozen, photons };
+        let Prepared { end, counts: photons } =
+            PathEnd::prepare(context, settings, &targets, pilots, watch);
         work.rays += rays;
-        let Prepared { end, counts: photons } = prepared;
         let most_unasked = end.most_unasked(context);
         Self {
             context,
@@ -168,15 +127,12 @@ impl<'a, S: Spectrum> PathEstimator<'a, S> {
             exact,
             end,
             light_vertices,
-            is_bidirectional,
-            role: PathRole::Selected,
             replicates,
             last_lx: vec![None; targets.len()],
             quantum,
             sums: vec![PathSums::default(); targets.len() * replicates as usize],
             scores: vec![PathScores::default(); targets.len()],
             growing: (0..targets.len()).collect(),
-            begins: vec![Some(0); targets.len()],
             ends: vec![None; targets.len()],
             targets,
             first: 0,
@@ -190,13 +146,6 @@ impl<'a, S: Spectrum> PathEstimator<'a, S> {
             samples_direct,
             specular_hits: SpecularHits::new(scene, &context.world, most_unasked),
         }
-    }
-
-    /// The same for no target: they begin one by one ([`Self::begin`]).
-    pub(crate) fn without_targets(mut self) -> Self {
-        self.begins.fill(None);
-        self.keep_to_ends();
-        self
     }
 
     /// Traces the paths `piece`, of those that are left when the paths `indices` of all growing
@@ -223,13 +172,10 @@ impl<'a, S: Spectrum> PathEstimator<'a, S> {
     fn section(&self, number: u64, indices: Range<u64>) -> Section<'_, S> {
         let target = self.growing[(number / u64::from(self.replicates)) as usize];
         let replicate = (number % u64::from(self.replicates)) as u32;
-        let points =
-            |stream: fn(u64) -> Stream| self.context.points(replicate, stream(target as u64));
         Section {
             number: number as usize,
             target: self.targets[target],
-            points: points(if self.is_bidirectional { Stream::EyeSubpaths } else { Stream::Paths }),
-            light_points: self.is_bidirectional.then(|| points(Stream::LightSubpaths)),
+            points: self.context.points(replicate, Stream::Paths(target as u64)),
             rest: self.end.rest(self.context, replicate, target),
             caustics: self.caustics.as_ref().and_then(|caustics| caustics.map(replicate)),
             partition: self
@@ -251,8 +197,7 @@ impl<S: Spectrum> PathEstimator<'_, S> {
     /// Leaves targets that have an end at that, with what else is done for each of them alone;
     /// other paths and photons stay what they are.
     fn keep_to_ends(&mut self) {
-        let grows = |&target: &usize| self.begins[target].is_some() && self.ends[target].is_none();
-        self.growing = (0..self.targets.len()).filter(grows).collect();
+        self.growing = (0..self.targets.len()).filter(|it| self.ends[*it].is_none()).collect();
         if let Some(caustics) = &mut self.caustics {
             caustics.freeze_converged(&self.ends);
         }
@@ -263,8 +208,7 @@ impl<S: Spectrum> PathEstimator<'_, S> {
 
     /// Indices that a target has.
     fn samples_of(&self, target: usize) -> u64 {
-        let begin = self.begins[target].unwrap_or(self.samples);
-        self.ends[target].unwrap_or(self.samples) - begin
+        self.ends[target].unwrap_or(self.samples)
     }
 
     /// Mean of a sum over the paths of a target in one replicate.
@@ -472,8 +416,7 @@ impl<S: Spectrum> Estimator for PathEstimator<'_, S> {
     }
 
     fn freeze_converged(&mut self, done: &[bool]) -> bool {
-        let begun = self.begins.iter().zip(done).map(|(begin, done)| *done && begin.is_some());
-        for (end, _) in self.ends.iter_mut().zip(begun).filter(|(_, done)| *done) {
+        for (end, _) in self.ends.iter_mut().zip(done).filter(|(_, done)| **done) {
             end.get_or_insert(self.samples);
         }
         self.keep_to_ends();

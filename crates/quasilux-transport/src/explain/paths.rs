@@ -166,7 +166,6 @@ impl<S: Spectrum> SampleSource for PathSource<'_, S> {
                     .as_ref()
                     .map(|light_vertices| &light_vertices.connection.partition),
                 caustics: self.caustics.as_ref().and_then(|caustics| caustics.map(0)),
-                light_points: None,
                 indices: first..(first + WAVE).min(samples),
             };
             self.piece(wave, &section, target.given_lx)

@@ -57,15 +57,11 @@ pub(crate) struct Lights<'a> {
     /// Over the point-like lights, the luminaires with an area, past them all emitting facets
     /// together, and past those the ways in from outside.
     by_flux: Option<Discrete>,
-    /// Over the lamps alone: what there is but for the ways in.
-    by_lamp_flux: Option<Discrete>,
     fluxes_lm: Vec<f64>,
     /// Number of the first way in.
     first_way_in: usize,
     /// What all photons carry together, in lm: the sum of the fluxes of lamps and ways in.
     pub(crate) flux_lm: f64,
-    /// Of the lamps alone.
-    pub(crate) lamps_lm: f64,
 }
 
 /// What a number of [`Lights`] stands for, with its number in its kind.
@@ -87,8 +83,6 @@ pub(crate) struct WaysIn<'l, 'a> {
 
 /// A photon that has just left its light.
 pub(crate) struct Emitted {
-    /// Number of the light.
-    pub(crate) light: usize,
     pub(crate) emission: Emission,
     pub(crate) path_class: LightPathClass,
     /// Its flux over that of a photon of all lights: 1 but for light from outside.
@@ -127,11 +121,10 @@ impl<'a> Lights<'a> {
         let centred = pointlikes.iter().chain(area_luminaires.iter());
         let mut fluxes_lm: Vec<f64> =
             centred.map(|light| light.flux_lm).chain([emitters_lm]).collect();
-        let (by_lamp_flux, lamps_lm) = (Discrete::new(&fluxes_lm), fluxes_lm.iter().sum());
+        let lamps_lm = fluxes_lm.iter().sum();
         let outside_photons = outside.as_ref().and_then(|outside| {
             // Elsewhere paths find what comes straight to sensors.
-            let counts_at_sensors =
-                matches!(estimator, EstimatorKind::Photon | EstimatorKind::Bidirectional);
+            let counts_at_sensors = estimator.is_bounded() || estimator == EstimatorKind::Photon;
             OutsidePhotons::new(outside, scene, world, Beside { counts_at_sensors, lamps_lm })
         });
         let first_way_in = fluxes_lm.len();
@@ -144,11 +137,9 @@ impl<'a> Lights<'a> {
             outside,
             outside_photons,
             by_flux,
-            by_lamp_flux,
             fluxes_lm,
             first_way_in,
             flux_lm,
-            lamps_lm,
         }
     }
 
@@ -206,28 +197,6 @@ impl<'a> Lights<'a> {
         Some(WaysIn { outside, photons })
     }
 
-    /// The density in m^-2 with which photons of one lamp, among those of all lamps, land straight
-    /// on the side `n` of a place, or on both, as if nothing stood in the way; of a luminaire with
-    /// an area about that, of emitting facets 0.
-    pub(crate) fn landings_m2(
-        &self,
-        number: usize,
-        position: DVec3,
-        n: DVec3,
-        takes_both_sides: bool,
-    ) -> f64 {
-        let pointlikes = self.pointlikes.len();
-        let lx = if number < pointlikes {
-            self.pointlikes.illuminance_lx(number, position, n, takes_both_sides)
-        } else if self.area_luminaires.get(number - pointlikes).is_some() {
-            let side = (!takes_both_sides).then_some(n);
-            self.area_luminaires.importance_lx(number - pointlikes, position, side)
-        } else {
-            0.0
-        };
-        lx / self.lamps_lm
-    }
-
     /// How many coordinates lead a photon out: its light and direction, and its place where facets
     /// emit, or where it comes in. The place on a luminaire with an area comes after its direction
     /// and matters less.
@@ -247,26 +216,7 @@ impl<'a> Lights<'a> {
         purposes: PurposeRecorder<'_>,
         sampler: &mut Sampler<'_>,
     ) -> Option<Emitted> {
-        self.emit_by(self.by_flux.as_ref()?, world, purposes, sampler)
-    }
-
-    /// The same of the lamps alone, all of which together have [`Self::lamps_lm`].
-    pub(crate) fn emit_from_lamps<S: Spectrum>(
-        &self,
-        world: &World<S>,
-        purposes: PurposeRecorder<'_>,
-        sampler: &mut Sampler<'_>,
-    ) -> Option<Emitted> {
-        self.emit_by(self.by_lamp_flux.as_ref()?, world, purposes, sampler)
-    }
-
-    fn emit_by<S: Spectrum>(
-        &self,
-        by_flux: &Discrete,
-        world: &World<S>,
-        purposes: PurposeRecorder<'_>,
-        sampler: &mut Sampler<'_>,
-    ) -> Option<Emitted> {
+        let by_flux = self.by_flux.as_ref()?;
         let (choice, u) = purposes.draw(sampler, Purpose::Emission, |sampler| {
             (sampler.choose_leading(by_flux), [sampler.remapped_1d(), sampler.next_1d()])
         });
@@ -297,7 +247,7 @@ impl<'a> Lights<'a> {
             let from = world.ray_origin_of_light(position, direction);
             let path_class = LightPathClass::Shown(number as u32);
             let emission = Emission { from, direction };
-            return Some(Emitted { light: number, emission, path_class, share: 1.0, place: None });
+            return Some(Emitted { emission, path_class, share: 1.0, place: None });
         }
         if let Some(luminaire) = self.area_luminaires.get(number - self.pointlikes.len()) {
             let towards = luminaire.photometry.sample_direction(u)?;
@@ -305,7 +255,6 @@ impl<'a> Lights<'a> {
             let direction = luminaire.world_from_luminaire * towards;
             let from = world.ray_origin_of_light(place_m(luminaire, &place), direction);
             return Some(Emitted {
-                light: number,
                 emission: Emission { from, direction },
                 path_class: LightPathClass::Straight,
                 share: 1.0,
@@ -319,7 +268,7 @@ impl<'a> Lights<'a> {
             let from = world.ray_origin_of_light(position, direction);
             let emission = Emission { from, direction };
             let path_class = LightPathClass::Outside;
-            return Some(Emitted { light: number, emission, path_class, share, place: None });
+            return Some(Emitted { emission, path_class, share, place: None });
         }
         let place = self.emitters.as_ref()?.sample_point(world, u);
         let n = world.facets[place.facet as usize].front_normal;
@@ -328,6 +277,6 @@ impl<'a> Lights<'a> {
         let from = world.ray_origin_on_front(place.facet, place.position);
         let emission = Emission { from, direction };
         let path_class = LightPathClass::Found;
-        Some(Emitted { light: number, emission, path_class, share: 1.0, place: None })
+        Some(Emitted { emission, path_class, share: 1.0, place: None })
     }
 }

@@ -319,8 +319,7 @@ impl<'a> OutsideLight<'a> {
         light: S,
         illuminance_lx: f64,
     ) -> Option<LightSample<S>> {
-        let sample = LightSample::unless_dark(direction, self.beyond_m, light, illuminance_lx)?;
-        Some(LightSample { is_from_outside: true, ..sample })
+        LightSample::unless_dark(direction, self.beyond_m, light, illuminance_lx)
     }
 
     /// The portals as a place sees them.

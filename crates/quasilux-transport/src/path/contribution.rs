@@ -18,8 +18,6 @@ pub(crate) struct PathContribution<S> {
     pub(crate) reflected: bool,
     /// Whether it was cut on its way.
     pub(crate) endless: bool,
-    /// What a bidirectional path asked for, in order: less than 0 what was blocked.
-    pub(crate) asked: Vec<f64>,
     /// Materials of the emitting facets that it met coming from specular surfaces.
     pub(crate) specular_hits: Vec<u32>,
     /// What came from outside, where that is kept apart by direction; not in the sums above.

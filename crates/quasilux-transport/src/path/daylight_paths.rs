@@ -49,7 +49,6 @@ pub(crate) fn trace<S: Spectrum>(
             partition: None,
             virtual_lights: None,
             pixel: None,
-            light_subpath: None,
             daylight: Some(search),
             sampler,
         }

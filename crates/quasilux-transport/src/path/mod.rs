@@ -5,7 +5,6 @@ pub(crate) mod daylight;
 pub(crate) mod daylight_paths;
 pub(crate) mod end;
 pub(crate) mod frozen_map;
-pub(crate) mod light_subpath;
 pub(crate) mod lobes;
 pub(crate) mod partition;
 pub(crate) mod russian_roulette;

@@ -43,9 +43,6 @@ pub(crate) struct PathSums {
 pub(crate) struct PathScores {
     /// Of whole paths.
     pub(crate) paths: Scores,
-    /// Of lights and light vertices that bidirectional paths saw, and of those that they did not.
-    pub(crate) seen: Scores,
-    pub(crate) blocked: Scores,
     /// Area lights that paths met coming from specular surfaces.
     pub(crate) specular_hits: HitCounts,
 }
@@ -70,8 +67,6 @@ pub(crate) struct Section<'g, S> {
     pub(crate) caustics: Option<CausticLookup<'g, S>>,
     /// What photons that are connected to the target leave to the paths.
     pub(crate) partition: Option<&'g Partition>,
-    /// The points of light subpaths, one for each path; `None` for plain paths.
-    pub(crate) light_points: Option<PointSet>,
     pub(crate) indices: Range<u64>,
 }
 
@@ -154,16 +149,10 @@ impl<S: Spectrum> Section<'_, S> {
                 rest: &self.rest,
                 caustics: self.caustics,
                 partition: self.partition,
-                light_subpath: self.light_subpath(index),
                 daylight: None,
                 sampler,
             }
         })
-    }
-
-    /// The sampler of the light subpath that comes with the eye subpath `index`.
-    fn light_subpath(&self, index: u64) -> Option<Sampler<'_>> {
-        self.light_points.as_ref().map(|points| Sampler::new(points, partner(index)))
     }
 }
 
@@ -214,18 +203,12 @@ impl PathSums {
 impl PathScores {
     fn add<S: Spectrum>(&mut self, found: &PathContribution<S>, quantum: Quantum) {
         self.paths.add((found.direct + found.indirect).luminance().abs(), quantum);
-        for light in &found.asked {
-            let of = if *light > 0.0 { &mut self.seen } else { &mut self.blocked };
-            of.add(light.abs(), quantum);
-        }
         found.specular_hits.iter().for_each(|material| self.specular_hits.count(*material));
     }
 
     /// Adds those of other paths.
     pub(crate) fn merge(&mut self, other: &Self) {
         self.paths.merge(&other.paths);
-        self.seen.merge(&other.seen);
-        self.blocked.merge(&other.blocked);
         self.specular_hits.merge(&other.specular_hits);
     }
 }
@@ -233,8 +216,6 @@ impl PathScores {
 impl Sums for PathScores {
     fn checked_add(&mut self, other: &Self) -> Option<()> {
         self.paths.checked_add(&other.paths)?;
-        self.seen.checked_add(&other.seen)?;
-        self.blocked.checked_add(&other.blocked)?;
         self.specular_hits.checked_add(&other.specular_hits)
     }
 }

@@ -24,8 +24,6 @@ pub(crate) struct Start<'p, S> {
     pub(crate) virtual_lights: Option<&'p ProbedLights<'p, S>>,
     /// What is known of the pixel that it starts from.
     pub(crate) pixel: Option<&'p PixelSketch>,
-    /// The coordinates of a light subpath that it is connected to; `None` for plain paths.
-    pub(crate) light_subpath: Option<Sampler<'p>>,
     /// Where what comes from outside is kept apart, how.
     pub(crate) daylight: Option<DaylightSearch<'p>>,
     pub(crate) sampler: Sampler<'p>,

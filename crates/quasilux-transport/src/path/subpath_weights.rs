@@ -31,9 +31,6 @@ pub(crate) struct SubpathWeights {
 }
 
 impl SubpathWeights {
-    /// At a sensor point, which no light subpath can meet.
-    pub(crate) const SENSOR: Self = Self { vcm: 0.0, vc: 0.0 };
-
     /// With these sums.
     pub(crate) fn new(vcm: f64, vc: f64) -> Self {
         Self { vcm, vc }
@@ -50,12 +47,6 @@ impl SubpathWeights {
     /// meets it. Without a density it asks nothing.
     pub(crate) fn of_landing(density_m2: Option<f64>) -> Self {
         Self { vcm: density_m2.map_or(0.0, |density_m2| 1.0 / density_m2), vc: 0.0 }
-    }
-
-    /// On an emitting facet that a photon leaves with the density `emission` in m^-2 sr^-1 at this
-    /// cosine. Where it lands says how the facet is asked for light: see [`Self::asked`].
-    pub(crate) fn of_emission(emission: f64, cos: f64) -> Self {
-        Self { vcm: 0.0, vc: cos / emission }
     }
 
     /// After a flight of this length that ends at this cosine.
@@ -256,10 +247,10 @@ mod tests {
         /// Of the eye subpath at a surface, 0 for the sensor.
         fn of_eye(&self, at: usize) -> SubpathWeights {
             if at == 0 {
-                return SubpathWeights::SENSOR;
+                return SubpathWeights::default();
             }
             let cos = self.cos(0, 1);
-            let left = SubpathWeights::SENSOR.scattered(cos, cos * FRAC_1_PI, 0.0);
+            let left = SubpathWeights::default().scattered(cos, cos * FRAC_1_PI, 0.0);
             self.carried(left, &(0..=at).collect::<Vec<usize>>())
         }
 
@@ -270,7 +261,7 @@ mod tests {
             let landed = if self.is_point {
                 SubpathWeights::of_landing(Some(self.landing_m2()))
             } else {
-                let left = SubpathWeights::of_emission(self.emission(), self.cos(light, last));
+                let left = SubpathWeights::new(0.0, self.cos(light, last) / self.emission());
                 let (distance_m, cos) = (self.distance_m(light, last), self.cos(last, light));
                 let as_drawn = self.emission() * cos / (distance_m * distance_m);
                 left.arrived(distance_m, cos).asked(self.asked_m2() / as_drawn)

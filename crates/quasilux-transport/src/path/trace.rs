@@ -12,7 +12,6 @@
 //!
 //! Read on at `direct_light`, `map_end` (ends on maps) and `virtual_light` (what pixels get).
 
-mod connect;
 mod direct_light;
 mod map_end;
 mod outside;
@@ -27,13 +26,12 @@ use crate::lights::{Asking, ChoiceWork, SunChoice};
 use crate::path::contribution::PathContribution;
 use crate::path::daylight::Daylight;
 use crate::path::end::Rest;
-use crate::path::light_subpath::{LightSubpaths, scattered};
 use crate::path::lobes::{self, Met};
 use crate::path::partition::{Partition, PartitionWeights};
 use crate::path::russian_roulette::{CERTAIN_BOUNCES, russian_roulette_factor};
 use crate::path::sketch::{PixelSketch, ProbedLights};
 use crate::path::start::{Measurement, Start};
-use crate::path::subpath_weights::{SubpathWeights, product};
+use crate::path::subpath_weights::product;
 use crate::path::vertex_record::VertexRecord;
 use crate::photon::caustics::CausticLookup;
 use crate::photon::virtual_lights::Sums;
@@ -42,7 +40,6 @@ use crate::spectrum::Spectrum;
 use crate::world::vertex::{Surface, Vertex};
 use crate::world::visibility::{Answer, ShadowQueue};
 use crate::world::{Interaction, RayOrigin};
-use connect::Connection;
 use glam::DVec3;
 use outside::{AskedOutside, OutsideFactors, first_direction, is_pane};
 use quasilux_bvh::RayQuery;
@@ -72,8 +69,6 @@ pub(crate) struct Path<'p, S> {
     /// Whether its last vertex has asked them.
     has_asked_virtual: bool,
     pixel: Option<&'p PixelSketch>,
-    /// What its vertex weighs beside those of a light subpath, if it has one.
-    subpath: Option<SubpathWeights>,
     /// The parts that it is to find of the light at its first surface.
     weights_of_paths: PartitionWeights,
     sampler: Sampler<'p>,
@@ -117,8 +112,6 @@ pub(crate) struct PathWork<S> {
     suns: SunChoice,
     images: ImageSamples<S>,
     sums: Sums,
-    pub(crate) light_subpaths: LightSubpaths<S>,
-    connections: Vec<Connection<S>>,
 }
 
 /// How a path goes on from a surface: factors on what the next surface sends.
@@ -156,7 +149,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
         work: &mut PathWork<S>,
     ) -> Self {
         let Start { from, measurement, rest, caustics, partition, virtual_lights, .. } = start;
-        let Start { light_subpath, pixel, daylight, mut sampler, .. } = start;
+        let Start { pixel, daylight, mut sampler, .. } = start;
         let (direction, pdf_sr, beta) = match measurement {
             Measurement::Illuminance { n, .. } => {
                 let u = context.draw(&mut sampler, Purpose::FirstDirection, Sampler::next_2d);
@@ -173,7 +166,6 @@ impl<'p, S: Spectrum> Path<'p, S> {
             virtual_lights,
             has_asked_virtual: false,
             pixel,
-            subpath: light_subpath.map(|_| SubpathWeights::SENSOR),
             weights_of_paths: PartitionWeights::ALL,
             sampler,
             from,
@@ -218,13 +210,11 @@ impl<'p, S: Spectrum> Path<'p, S> {
         self.sample_direct_emitter_images(context, &vertex, work);
         self.sample_direct_area_luminaires(context, &vertex, work);
         self.sample_direct_outside(context, &vertex, work);
-        self.connect(context, &vertex, work);
         self.asked_outside =
             self.pdf_sr.and_then(|pdf_sr| AskedOutside::new(context, &vertex, pdf_sr, None));
-        let (cos, pdf_sr) = (n.dot(self.direction), vertex.pdf_sr(self.direction));
+        let pdf_sr = vertex.pdf_sr(self.direction);
         self.pdf_sr = Some(pdf_sr);
         self.specular_way = self.specular_way(context, pdf_sr);
-        self.subpath = self.subpath.map(|start| start.scattered(cos, pdf_sr, 0.0));
     }
 
     /// The ray along which it goes on.
@@ -239,10 +229,6 @@ impl<'p, S: Spectrum> Path<'p, S> {
 
     /// What became of light that the path asked for.
     pub(crate) fn hear(&mut self, answer: &Answer<S>) {
-        if self.subpath.is_some() && !answer.is_from_outside {
-            let light = answer.light.luminance();
-            self.found.asked.push(if answer.bounces.is_some() { light } else { -light });
-        }
         if let Some(daylight) = &mut self.daylight {
             let light = answer.bounces.map(|_| answer.light.luminance());
             self.found.from_outside.extend(daylight.answered(light));
@@ -282,9 +268,6 @@ impl<'p, S: Spectrum> Path<'p, S> {
     ) -> bool {
         self.add_arrived();
         self.flights += 1;
-        if let (Some(subpath), Some(at)) = (&mut self.subpath, at) {
-            *subpath = subpath.arrived(at.distance_m, at.n.dot(self.direction).abs());
-        }
         let before = self.found.indirect;
         match at {
             Some(at) => self.add_emitted(context, bounces, at),
@@ -375,10 +358,9 @@ impl<'p, S: Spectrum> Path<'p, S> {
                 },
             );
         }
-        self.note_specular_way(context, at, wo, &next);
+        self.note_specular_way(context, at, &next);
         self.note_side(context, &next);
         self.note_asked_outside(context, at, surface, bounces, &next);
-        self.subpath = self.subpath.map(|subpath| scattered(subpath, bsdf, wo, next.wi));
         let world = &context.world;
         self.from =
             if next.wi.z > 0.0 { world.ray_origin(at) } else { world.ray_origin_behind(at) };
@@ -481,19 +463,8 @@ impl<'p, S: Spectrum> Path<'p, S> {
             self.found.specular_hits.push(context.world.facet(at).material);
         }
         let Asked { pdf_m2, inverse_of_direction_m2 } = asked.unwrap_or_default();
-        let weight = match self.subpath {
-            None => {
-                let ratio = product(pdf_m2, inverse_of_direction_m2);
-                1.0 / (1.0 + ratio * ratio)
-            }
-            Some(subpath) => {
-                let emission = emitted_cd_m2 * cos / context.lights.lamps_lm;
-                let is_past_specular = self.pdf_sr.is_none();
-                let asked = subpath.asked(inverse_of_direction_m2);
-                let subpath = if is_past_specular { asked } else { subpath };
-                subpath.of_hit(pdf_m2, emission)
-            }
-        };
+        let ratio = product(pdf_m2, inverse_of_direction_m2);
+        let weight = 1.0 / (1.0 + ratio * ratio);
         self.found.add(bounces, self.beta_emitted * (emitted_cd_m2 * weight));
     }
 }

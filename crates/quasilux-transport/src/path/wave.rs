@@ -39,10 +39,6 @@ impl<S: Spectrum> PathWave<S> {
         starts: impl Iterator<Item = Start<'p, S>>,
     ) -> Vec<Path<'p, S>> {
         let starts: Vec<Start<'p, S>> = starts.collect();
-        if starts.iter().any(|start| start.light_subpath.is_some()) {
-            let samplers = starts.iter().map(|start| start.light_subpath.clone());
-            self.work.light_subpaths.trace(context, samplers);
-        }
         let mut paths = Vec::with_capacity(starts.len());
         self.receivers.clear();
         for (number, start) in (0..).zip(starts) {
@@ -67,8 +63,7 @@ impl<S: Spectrum> PathWave<S> {
 
     /// How many rays were traced since this was asked last.
     pub(crate) fn take_rays(&mut self) -> u64 {
-        let PathWork { shadows, light_subpaths, .. } = &mut self.work;
-        take(&mut self.rays) + take(&mut shadows.rays) + take(&mut light_subpaths.rays)
+        take(&mut self.rays) + take(&mut self.work.shadows.rays)
     }
 
     /// Gives the starts that want it the direct light of the point-like lights.

@@ -16,11 +16,10 @@ pub(crate) fn cannot_see<S: Spectrum>(
 ) -> Vec<String> {
     match settings.estimator {
         EstimatorKind::Photon => of_photons(scene),
-        EstimatorKind::Bidirectional => Vec::new(),
-        EstimatorKind::Path
-        | EstimatorKind::Auto
-        | EstimatorKind::Selected
-        | EstimatorKind::BidirectionalMap => of_paths(context),
+        EstimatorKind::Auto | EstimatorKind::Bidirectional => Vec::new(),
+        EstimatorKind::Path | EstimatorKind::Selected | EstimatorKind::BidirectionalMap => {
+            of_paths(context)
+        }
     }
 }
 

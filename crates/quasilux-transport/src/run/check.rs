@@ -139,8 +139,11 @@ fn check_switches(settings: &Settings) -> Result<(), CheckError> {
         return Err(CheckError::FirstShotWithConnections);
     }
     let has_map = match settings.estimator {
-        EstimatorKind::Path | EstimatorKind::Photon | EstimatorKind::Bidirectional => false,
-        EstimatorKind::Auto | EstimatorKind::Selected => settings.connections() != Some(true),
+        EstimatorKind::Auto
+        | EstimatorKind::Path
+        | EstimatorKind::Photon
+        | EstimatorKind::Bidirectional => false,
+        EstimatorKind::Selected => settings.connections() != Some(true),
         EstimatorKind::BidirectionalMap => true,
     };
     if settings.map_dimensions.is_some() && !has_map {
@@ -150,8 +153,8 @@ fn check_switches(settings: &Settings) -> Result<(), CheckError> {
         });
     }
     let is_steerable = match settings.estimator {
-        EstimatorKind::Path | EstimatorKind::Bidirectional => false,
-        EstimatorKind::Auto | EstimatorKind::Selected => settings.connections() != Some(false),
+        EstimatorKind::Auto | EstimatorKind::Path | EstimatorKind::Bidirectional => false,
+        EstimatorKind::Selected => settings.connections() != Some(false),
         EstimatorKind::Photon | EstimatorKind::BidirectionalMap => true,
     };
     if settings.importance == Switch::On && !is_steerable {

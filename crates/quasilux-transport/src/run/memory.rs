@@ -148,16 +148,10 @@ fn point_bytes(settings: &Settings) -> u64 {
         kind if kind.is_selected_by_pilots() => replicates.saturating_mul(2 * values * sum),
         _ => 0,
     };
-    // Beside the selected estimator, a probe and a relief: bidirectional paths, with three scores
-    // where they are traced, by the relief at few points.
-    let beside = match settings.estimator {
-        EstimatorKind::Auto => sums.saturating_mul(2).saturating_add(3 * SCORES_BYTES),
-        _ => 0,
-    };
     let figures = replicates.saturating_mul(values * VALUE_BYTES);
-    let own = [sums, joined, beside, figures];
+    let own = [sums, joined, figures];
     let watched = match settings.estimator {
-        EstimatorKind::Bidirectional => 0,
+        kind if kind.is_bounded() => 0,
         _ => SCORES_BYTES + witness::POINT_BYTES,
     };
     total(own).saturating_add(watched + PLACE_BYTES)

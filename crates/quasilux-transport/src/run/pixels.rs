@@ -401,7 +401,6 @@ impl<'a, S: Spectrum> Darkroom<'a, S> {
             from: self.context.world.ray_origin_of_sensor(self.view.position, direction),
             measurement: Measurement::Luminance { direction },
             rest: &Rest::Path,
-            light_subpath: None,
             daylight: None,
             sampler,
         }

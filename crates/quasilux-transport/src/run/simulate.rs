@@ -210,9 +210,6 @@ impl<S: Spectrum> Steps<'_, '_, S> {
             if is_look && !is_enough {
                 course.is_adaptive = estimator.freeze_converged(&standing.done);
             }
-            if !is_enough && estimator.adapt(&estimates, &standing) {
-                course.history.restart();
-            }
             course.record(&mut estimates, &standing, settings);
             let control = watch.checkpoint(&estimates, standing.largest());
             course.last = Some(estimates);

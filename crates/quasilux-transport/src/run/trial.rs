@@ -1,6 +1,5 @@
 //! What must change nothing but the time, to be chosen: the ray kernel of a run, and, for the
-//! photon trace by itself, how photons are taken. And bidirectional paths by themselves, which no
-//! setting asks for.
+//! photon trace by itself, how photons are taken.
 //!
 //! Public because benchmarks and the tests that compare stand outside the crate. The photon trace
 //! has no checkpoints and no intervals: figures come from [`crate::simulate`].
@@ -11,14 +10,11 @@ pub use crate::context::{Step, Stopwatch};
 pub use crate::photon::order::PhotonOrder;
 
 use crate::context::Context;
-use crate::estimator::path_estimator::PathEstimator;
 use crate::estimator::photon_estimator::PhotonEstimator;
-use crate::estimator::{Estimator, auto};
 use crate::run::simulate::simulate_on;
 use crate::settings::Settings;
 use crate::spectrum::{Spectrum, is_grey};
 use crate::stats::estimates::Estimates;
-use crate::stats::schedule::MIN_SAMPLES;
 use crate::stats::watch::Watch;
 use quasilux_scene::{Rgb, Scene};
 use std::ops::Range;
@@ -46,26 +42,6 @@ pub trait PhotonTrial: Send {
 #[must_use]
 pub fn simulate_with(simd: SimdLevel, scene: &Scene, settings: &Settings) -> Estimates {
     simulate_on(simd, scene, settings, &mut ())
-}
-
-/// Bidirectional paths alone, up to `max_samples` of the settings; `None` where light would count
-/// twice or be left out, see [`crate::EstimatorKind::Auto`].
-#[must_use]
-pub fn bidirectional_paths(scene: &Scene, settings: &Settings) -> Option<Estimates> {
-    fn trace<S: Spectrum>(scene: &Scene, settings: &Settings) -> Option<Estimates> {
-        let context = Context::<S>::new(scene, settings);
-        if !auto::is_possible(&context, settings) {
-            return None;
-        }
-        let mut estimator = PathEstimator::bidirectional(&context, scene, settings);
-        let mut nobody = ();
-        let samples = settings.max_samples.unwrap_or(MIN_SAMPLES);
-        let is_whole = estimator.advance(samples, &mut Watch::new(&mut nobody));
-        let estimates = is_whole.then(|| estimator.estimates())?;
-        let (confidence, miss_probability) = (settings.confidence, 1.0 - settings.confidence);
-        Some(Estimates { confidence, miss_probability, ..estimates })
-    }
-    if is_grey(scene) { trace::<f64>(scene, settings) } else { trace::<Rgb>(scene, settings) }
 }
 
 /// Sets a scene up as the estimator `photon` does, and hands it to `measure`.

@@ -161,11 +161,6 @@ impl History {
         Self { widths, samples: last.samples, rays: last.rays, ..self }
     }
 
-    /// Ends the chain of checkpoints: what comes is not comparable with it.
-    pub(crate) fn restart(&mut self) {
-        self.checkpoints.clear();
-    }
-
     /// Adds a checkpoint to the chain. Where nothing can be compared with the last checkpoint, one
     /// that has not begun begins here, and one that has is at its end: what others told stands for
     /// targets that had nothing before. `noise` is the variance of logarithms of half-widths by
@@ -201,7 +196,7 @@ impl History {
     fn change(&self, now: &[TargetWidth], noise: f64) -> Option<Change> {
         let (mut all, mut chosen, mut change) = (Moments::default(), Moments::default(), 0.0);
         for (before, now) in self.widths.iter().zip(now) {
-            // Targets that were taken over began later, and have fewer samples than the others.
+            // Targets that ended long ago have fewer samples than the others.
             let grew = 2 * before.samples > self.samples;
             let Some(log_before) = before.logarithm().filter(|_| grew) else { continue };
             all.add(log_before);
@@ -342,13 +337,11 @@ mod tests {
             let at = |(scale, n): (&f64, &u64)| scale * libm::pow(*n as f64, self.slope);
             let widths: Vec<f64> = self.scales.iter().zip(samples).map(at).collect();
             let unseen_excess = |n: &u64| self.unseen.map(|unseen| unseen / *n as f64);
-            let narrow: Vec<bool> = widths.iter().map(|width| *width <= settings.rel_tol).collect();
             Standing {
                 relative_widths: widths.iter().copied().map(Some).collect(),
                 excess: widths.iter().map(|width| Some(width / settings.rel_tol)).collect(),
                 unseen_excess: samples.iter().map(unseen_excess).collect(),
-                done: narrow.clone(),
-                narrow,
+                done: widths.iter().map(|width| *width <= settings.rel_tol).collect(),
                 unresolved: 0,
                 is_reached: false,
                 may_end: false,

@@ -48,8 +48,6 @@ pub struct Estimates {
     /// Sensor points where light may be that no path or photon has found: their value is what was
     /// found, and nothing is known of its error.
     pub unresolved_points: u64,
-    /// Sensor points that bidirectional paths took over, with [`crate::EstimatorKind::Auto`].
-    pub relieved_points: u64,
     /// Whether values may be biased beyond what their intervals say.
     pub biased: bool,
     /// Classes of light paths in the scene that the estimator cannot make, such as "lamp, mirror,
@@ -162,7 +160,7 @@ impl Estimates {
         self.interval_of(sensor, mean)
     }
 
-    /// The same of what was found, whatever is missing: what decides whether a run goes on.
+    /// The average of what was found, whatever is missing: what decides whether a run goes on.
     pub(crate) fn found_average(&self, sensor: usize) -> Interval {
         self.found_interval_of(sensor, mean)
     }
@@ -199,12 +197,6 @@ impl Estimates {
     pub fn point_intervals(&self, sensor: usize) -> Vec<Interval> {
         let SensorEstimates { replicate_lx, resolved, .. } = &self.sensors[sensor];
         self.intervals(replicate_lx, resolved)
-    }
-
-    /// The same of what was found, whatever is missing.
-    pub(crate) fn found_point_intervals(&self, sensor: usize) -> Vec<Interval> {
-        let SensorEstimates { replicate_lx, resolved, .. } = &self.sensors[sensor];
-        self.intervals(replicate_lx, &vec![true; resolved.len()])
     }
 
     /// The intervals of one term of the Neumann series at all points of one sensor, in lx; no
@@ -247,40 +239,6 @@ impl SensorEstimates {
         }
         let known = self.contradicted.iter_mut().zip(contradicted);
         known.for_each(|(known, contradicted)| *known |= contradicted);
-    }
-
-    /// Withdraws the intervals of the points where light may hide that more paths would show.
-    pub(crate) fn withdraw_unseen(&mut self, unseen: impl Iterator<Item = bool>) {
-        let is_bounded = self.unseen.is_some();
-        let unseen = unseen.map(|unseen| unseen && !is_bounded);
-        for (point, _) in unseen.enumerate().filter(|(_, unseen)| *unseen) {
-            self.resolved[point] = false;
-            self.missed[point] = true;
-        }
-    }
-
-    /// Takes the figures of some points from another estimate of the same sensor.
-    pub(crate) fn replace(&mut self, points: &[bool], other: &Self) {
-        fn take<T: Clone>(to: &mut [T], from: &[T], points: &[bool]) {
-            let taken = to.iter_mut().zip(from).zip(points).filter(|(_, taken)| **taken);
-            taken.for_each(|((to, from), _)| to.clone_from(from));
-        }
-        let rows = |to: &mut [Vec<f64>], from: &[Vec<f64>]| {
-            to.iter_mut().zip(from).for_each(|(to, from)| take(to, from, points));
-        };
-        rows(&mut self.replicate_lx, &other.replicate_lx);
-        take(&mut self.direct_lx, &other.direct_lx, points);
-        take(&mut self.resolved, &other.resolved, points);
-        take(&mut self.missed, &other.missed, points);
-        take(&mut self.contradicted, &other.contradicted, points);
-        take(&mut self.samples, &other.samples, points);
-        for (to, from) in self.terms.iter_mut().zip(&other.terms) {
-            rows(&mut to.replicate_lx, &from.replicate_lx);
-            take(&mut to.resolved, &from.resolved, points);
-        }
-        if let Some(unseen) = &mut self.unseen {
-            unseen.replace(points, other.unseen.as_ref());
-        }
     }
 
     /// The figures of some of its points.

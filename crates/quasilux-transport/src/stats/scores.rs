@@ -67,19 +67,6 @@ impl Scores {
         square > 0.0 && matters && fourth / (square * square) - 1.0 / n > MAX_VOV
     }
 
-    /// The mean of scores where each is counted by its size, over the reference of the quantum; 0
-    /// without any.
-    pub(crate) fn typical(&self) -> f64 {
-        let sum = self.sum_of(|x| x);
-        if sum > 0.0 { self.sum_of(|x| x * x) / sum } else { 0.0 }
-    }
-
-    /// How many are as large as this, over the reference of the quantum, or larger.
-    pub(crate) fn count_from(&self, score: f64) -> u64 {
-        let first = bin(score).unwrap_or(0);
-        self.counts.iter().skip(first).sum()
-    }
-
     fn sum_of(&self, of: impl Fn(f64) -> f64) -> f64 {
         let filled = self.counts.iter().enumerate().filter(|(_, count)| **count > 0);
         filled.map(|(bin, count)| *count as f64 * of(middle(bin))).sum()
@@ -138,13 +125,6 @@ mod tests {
         assert!(!scores((0..400).map(|_| 1.0)).hide_their_tail(4000, 0.0));
         assert!(scores((0..4).map(|_| 1.0)).hide_their_tail(4000, 0.0));
         assert!(!Scores::default().hide_their_tail(1000, 0.0));
-    }
-
-    #[test]
-    fn typical_scores_are_those_that_make_the_sum() {
-        let mixed = scores((0..1000).map(|_| 0.001).chain([100.0]));
-        assert!((mixed.typical() / 100.0 - 1.0).abs() < 0.2, "{}", mixed.typical());
-        assert_eq!([50.0, 1e-4, 1e3].map(|from| mixed.count_from(from)), [1, 1001, 0]);
     }
 
     #[test]

@@ -21,8 +21,6 @@ pub(crate) struct Standing {
     /// The same of the bound on light that no sample met: 0 where it is not waited for, `None` of
     /// estimators without one.
     pub(crate) unseen_excess: Vec<Option<f64>>,
-    /// Whether what was found is known as well, be the interval withdrawn or not.
-    pub(crate) narrow: Vec<bool>,
     /// Whether more samples are of no use to a target.
     pub(crate) done: Vec<bool>,
     /// Points where nothing was found yet.
@@ -44,7 +42,6 @@ impl Standing {
             relative_widths: Vec::new(),
             excess: Vec::new(),
             unseen_excess: Vec::new(),
-            narrow: Vec::new(),
             done: Vec::new(),
             unresolved: 0,
             is_reached: is_wanted,
@@ -57,9 +54,6 @@ impl Standing {
             standing.relative_widths.extend(points.iter().map(Interval::relative_half_width));
             match settings.tolerance_on {
                 ToleranceOn::Points => {
-                    let found = estimates.found_point_intervals(sensor);
-                    let is_narrow = |point| yardstick.target(point, None, true).is_narrow();
-                    standing.narrow.extend(found.iter().map(is_narrow));
                     standing.add_points(figures, &points, &yardstick);
                 }
                 ToleranceOn::Summary => {
@@ -71,7 +65,6 @@ impl Standing {
                     let target =
                         yardstick.target(&estimates.found_average(sensor), unseen_lx, resolved);
                     let is_given_up = target.is_without_end() && yardstick.had_a_chance(false);
-                    standing.narrow.extend(points.iter().map(|_| target.is_done()));
                     points.iter().for_each(|_| standing.add(target, is_given_up));
                 }
             }
@@ -278,14 +271,5 @@ mod tests {
         let dark = made_up(&[(0.0, 0.0), (1.0, f64::INFINITY)], 0.0);
         assert_eq!(dark.unseen_of_minimum(0), Some(0.0));
         assert_eq!(dark.unseen_of_maximum(0), Some(f64::INFINITY));
-    }
-
-    /// What seems to be hidden does not take the interval of a point with a bound.
-    #[test]
-    fn points_with_a_bound_are_not_withdrawn() {
-        let mut sensor = made_up(&[(1.0, 0.1), (2.0, 0.1)], 0.1).sensors.remove(0);
-        sensor.withdraw_unseen([false, true].into_iter());
-        assert!(sensor.resolved.iter().all(|resolved| *resolved));
-        assert!(![&sensor.missed, &sensor.contradicted].iter().any(|flags| flags.contains(&true)));
     }
 }

@@ -53,18 +53,6 @@ impl UnseenLight {
             disc_radius_m: self.disc_radius_m[points].to_vec(),
         }
     }
-
-    /// Takes some points from another; nothing is known of them where that has no bound.
-    pub(crate) fn replace(&mut self, points: &[bool], other: Option<&Self>) {
-        for (point, _) in points.iter().enumerate().filter(|(_, taken)| **taken) {
-            self.point_lx[point] = other.map_or(f64::INFINITY, |other| other.point_lx[point]);
-            self.merged_lx[point] = other.map_or(0.0, |other| other.merged_lx[point]);
-            self.disc_radius_m[point] = other.and_then(|other| other.disc_radius_m[point]);
-        }
-        if points.contains(&true) {
-            self.average_lx = mean(&self.point_lx);
-        }
-    }
 }
 
 /// A bound for one of `points` points, times this, holds for all of them at once: ln(1/d) becomes
@@ -94,17 +82,10 @@ mod tests {
     }
 
     #[test]
-    fn parts_and_replacements_claim_no_more_than_their_points() {
+    fn parts_claim_no_more_than_their_points() {
         assert_eq!(two().part(1..2).average_lx, 0.4);
         assert_eq!(two().part(1..2).merged_lx, [3.0]);
         assert!(two().has_points(2) && !two().has_points(1));
-        let mut replaced = two();
-        replaced.replace(&[false, false], None);
-        assert_eq!(replaced, two());
-        replaced.replace(&[true, false], Some(&UnseenLight::unknown(2).part(0..2)));
-        assert_eq!(replaced.point_lx, [f64::INFINITY, 0.4]);
-        assert_eq!(replaced.average_lx, f64::INFINITY);
-        assert_eq!(replaced.disc_radius_m, [None, None]);
     }
 
     /// In the bytes of a checkpoint, where nothing is known, too.

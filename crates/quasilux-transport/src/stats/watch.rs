@@ -22,9 +22,6 @@ pub(crate) struct Watch<'o> {
     piece: Option<u64>,
     /// What a state begins with: all that does not change before the next checkpoint.
     preface: Vec<u8>,
-    /// What stands around the state of the estimator that works.
-    before: Vec<u8>,
-    after: Vec<u8>,
     /// Whether it may stop the run now.
     obeys: bool,
     /// Whether it did, within a piece.
@@ -67,7 +64,6 @@ impl<'o> Watch<'o> {
             picture: None,
         };
         let (piece, preface) = (observer.piece(), Vec::new());
-        let (before, after) = (Vec::new(), Vec::new());
         let (rays_to_end, max_rays) = (None, u64::MAX);
         let (obeys, stopped) = (false, false);
         Self {
@@ -79,8 +75,6 @@ impl<'o> Watch<'o> {
             max_rays,
             piece,
             preface,
-            before,
-            after,
             obeys,
             stopped,
             workers: None,
@@ -197,20 +191,6 @@ impl<'o> Watch<'o> {
         }
     }
 
-    /// Puts what other estimators have around the states of the one that works from here on.
-    pub(crate) fn surround(
-        &mut self,
-        before: impl FnOnce(&mut Writer),
-        after: impl FnOnce(&mut Writer),
-    ) {
-        if self.piece.is_some() {
-            let (mut first, mut last) = (Writer::default(), Writer::default());
-            before(&mut first);
-            after(&mut last);
-            (self.before, self.after) = (first.finish(), last.finish());
-        }
-    }
-
     /// After a piece: gives the observer the state, if it wants it, with the work so far before
     /// what is put out, and says whether to go on.
     #[must_use]
@@ -233,9 +213,7 @@ impl<'o> Watch<'o> {
         let mut out = Writer::behind(&self.preface);
         let Progress { photons, paths, rays, .. } = self.progress;
         out.value(&[photons, paths, rays]);
-        out.bytes(&self.before);
         put(&mut out);
-        out.bytes(&self.after);
         self.observer.state(&out.finish());
     }
 

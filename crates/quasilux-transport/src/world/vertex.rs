@@ -132,24 +132,6 @@ impl<'w, S: Spectrum> Vertex<'w, S> {
         }
     }
 
-    /// The density of [`Self::pdf_sr`] that partition weights take.
-    pub(crate) fn partition_pdf_sr(&self, direction: DVec3) -> f64 {
-        match &self.surface {
-            None => self.pdf_sr(direction),
-            Some(Surface { bsdf, frame, wo, .. }) => {
-                bsdf.partition_pdf_sr(*wo, frame.to_local(direction))
-            }
-        }
-    }
-
-    /// The density in sr^-1 that they take for light that arrives from `direction` and goes on
-    /// toward the start of the path; 0 at the start, where none goes on.
-    pub(crate) fn reverse_pdf_sr(&self, direction: DVec3) -> f64 {
-        self.surface.as_ref().map_or(0.0, |Surface { bsdf, frame, wo, .. }| {
-            bsdf.partition_pdf_sr(frame.to_local(direction), *wo)
-        })
-    }
-
     /// Density in sr^-1 of paths that go on from here along `direction`, survival in it.
     pub(crate) fn survival_pdf_sr(&self, direction: DVec3, favour: f64) -> f64 {
         match &self.surface {

@@ -25,8 +25,6 @@ pub(crate) struct LightSample<S> {
     pub(crate) illuminance_lx: f64,
     /// Whether it is asked for through panes, too.
     pub(crate) through_panes: bool,
-    /// Whether it comes from infinitely far away.
-    pub(crate) is_from_outside: bool,
 }
 
 /// Somebody who asks for light at a place.
@@ -58,7 +56,6 @@ struct Question<S> {
     mirrors: u32,
     /// So many panes may stand in it, all together.
     max_panes: u32,
-    is_from_outside: bool,
 }
 
 /// What becomes of light that somebody asked for.
@@ -67,14 +64,12 @@ pub(crate) struct Answer<S> {
     pub(crate) light: S,
     /// Mirrors and panes on its way; `None` where something stands in it.
     pub(crate) bounces: Option<u32>,
-    /// See [`LightSample`].
-    pub(crate) is_from_outside: bool,
 }
 
 impl<S: Copy> Question<S> {
     fn blocked(&self) -> Answer<S> {
-        let &Self { who, light, is_from_outside, .. } = self;
-        Answer { who, light, bounces: None, is_from_outside }
+        let &Self { who, light, .. } = self;
+        Answer { who, light, bounces: None }
     }
 }
 
@@ -87,16 +82,8 @@ impl<S: Spectrum> LightSample<S> {
         illuminance_lx: f64,
     ) -> Option<Self> {
         let (facet, through_panes) = (RayQuery::NONE, true);
-        let is_from_outside = false;
-        let light_sample = Self {
-            direction,
-            distance_m,
-            facet,
-            light,
-            illuminance_lx,
-            through_panes,
-            is_from_outside,
-        };
+        let light_sample =
+            Self { direction, distance_m, facet, light, illuminance_lx, through_panes };
         // What is not a number counts: the tally must refuse it.
         (light.luminance() != 0.0).then_some(light_sample)
     }
@@ -111,7 +98,6 @@ impl<S: Spectrum> LightSample<S> {
             light: S::white() * f64::NAN,
             illuminance_lx: 0.0,
             through_panes: true,
-            is_from_outside: false,
         })
     }
 }
@@ -139,9 +125,9 @@ impl<S: Spectrum> ShadowQueue<S> {
             light_sample.facet,
         ));
         let max_panes = if light_sample.through_panes { self.max_bounces } else { 0 };
-        let &LightSample { light, is_from_outside, .. } = light_sample;
+        let light = light_sample.light;
         let (shadow_rays, mirrors) = (1, 0);
-        let question = Question { who, light, shadow_rays, mirrors, max_panes, is_from_outside };
+        let question = Question { who, light, shadow_rays, mirrors, max_panes };
         self.questions.push(question);
     }
 
@@ -161,8 +147,7 @@ impl<S: Spectrum> ShadowQueue<S> {
         let shadow_rays = (self.shadow_rays.len() - before) as u32;
         let is_open = facet == RayQuery::NONE;
         let max_panes = if is_open { self.max_bounces.saturating_sub(mirrors) } else { 0 };
-        let is_from_outside = false;
-        let question = Question { who, light, shadow_rays, mirrors, max_panes, is_from_outside };
+        let question = Question { who, light, shadow_rays, mirrors, max_panes };
         self.questions.push(question);
     }
 
@@ -170,8 +155,8 @@ impl<S: Spectrum> ShadowQueue<S> {
     /// stands in the way of the ray.
     pub(crate) fn push_connection(&mut self, who: u32, light: S, bounces: u32, ray: RayQuery) {
         self.shadow_rays.push(ray);
-        let (shadow_rays, mirrors, max_panes, is_from_outside) = (1, bounces, 0, false);
-        let question = Question { who, light, shadow_rays, mirrors, max_panes, is_from_outside };
+        let (shadow_rays, mirrors, max_panes) = (1, bounces, 0);
+        let question = Question { who, light, shadow_rays, mirrors, max_panes };
         self.questions.push(question);
     }
 
@@ -201,7 +186,6 @@ impl<S: Spectrum> ShadowQueue<S> {
                         who: question.who,
                         light: transmitted,
                         bounces: Some(question.mirrors + panes),
-                        is_from_outside: question.is_from_outside,
                     },
                     None => question.blocked(),
                 });

@@ -8,7 +8,6 @@ use glam::DVec3;
 use quasilux_scene::bsdf::Translucent;
 use quasilux_scene::light::AreaLight;
 use quasilux_scene::{Bsdf, Light, Rgb};
-use quasilux_transport::trial::bidirectional_paths;
 use quasilux_transport::{EstimatorKind, Settings, simulate};
 
 /// The part of a polygon that is before the side `n` of a place.
@@ -108,8 +107,9 @@ fn opal_panels_do_not_light_themselves() {
         let settings = Settings { rel_tol: 0.01, seed, ..Settings::default() };
         let by = |estimator| simulate(&scene, &Settings { estimator, ..settings.clone() }, &mut ());
         let photons = by(EstimatorKind::Photon);
-        let bidirectional = bidirectional_paths(&scene, &settings).expect("nothing is hidden");
-        for (what, other) in [("paths", by(EstimatorKind::Path)), ("both ways", bidirectional)] {
+        for (what, other) in
+            [("paths", by(EstimatorKind::Path)), ("both ways", by(EstimatorKind::Bidirectional))]
+        {
             for sensor in 0..2 {
                 let pairs = photons.point_intervals(sensor);
                 for (a, b) in pairs.iter().zip(other.point_intervals(sensor)) {

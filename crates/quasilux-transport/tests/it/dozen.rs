@@ -11,9 +11,8 @@
 //! much would make intervals of 32 replicates that cannot be trusted at this significance.
 
 use crate::dozen_scenes as scenes;
-use quasilux_scene::{Bsdf, Scene};
+use quasilux_scene::Scene;
 use quasilux_stats::{sidak, student_t_quantile};
-use quasilux_transport::trial::bidirectional_paths;
 use quasilux_transport::{Control, Estimates, EstimatorKind, Observer, Settings, Switch, simulate};
 
 const REPLICATES: u32 = 32;
@@ -26,9 +25,7 @@ const WIDEST: f64 = 0.003;
 /// The standard error of each that leads there.
 const STANDARD_ERROR: f64 = 0.00055;
 const MIN_SAMPLES: u64 = 1 << 9;
-const MAX_SAMPLES: u64 = 1 << 17;
-/// Of bidirectional paths in each replicate.
-const BIDIRECTIONAL_SAMPLES: u64 = 1 << 14;
+const MAX_SAMPLES: u64 = 1 << 18;
 
 /// The mean of replicates.
 #[derive(Clone, Copy, Debug)]
@@ -110,6 +107,7 @@ fn assert_agree(scene: &Scene) {
         ("photons", EstimatorKind::Photon, Switch::Off),
         ("corrected map", EstimatorKind::Selected, Switch::Off),
         ("connected photons", EstimatorKind::Selected, Switch::On),
+        ("bidirectional paths", EstimatorKind::Bidirectional, Switch::Auto),
     ];
     let found = unbiased
         .map(|(name, estimator, connections)| (name, estimate(scene, estimator, connections)));
@@ -117,18 +115,6 @@ fn assert_agree(scene: &Scene) {
         for (other, of_other) in &found[..number] {
             assert!(mean.agrees(of_other), "{name} and {other}: {found:?}");
         }
-    }
-    let settings = settings(EstimatorKind::Auto, Switch::Off);
-    let settings = Settings { max_samples: Some(BIDIRECTIONAL_SAMPLES), ..settings };
-    if let Some(estimates) = bidirectional_paths(scene, &settings) {
-        let mean = Mean::new(&estimates);
-        for (other, of_other) in &found {
-            assert!(mean.agrees(of_other), "bidirectional paths and {other}: {mean:?}, {found:?}");
-        }
-    } else {
-        let refracts = |bsdf: &Bsdf| matches!(bsdf, Bsdf::Dielectric(_));
-        let mut bsdfs = scene.materials.iter().map(|material| &material.bsdf);
-        assert!(bsdfs.any(refracts), "bidirectional paths were not tried");
     }
     let map = estimate(scene, EstimatorKind::BidirectionalMap, Switch::Off);
     assert!(found[0].1.agrees(&map), "map: {map:?}, {found:?}");

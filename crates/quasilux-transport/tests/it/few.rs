@@ -5,7 +5,7 @@ use crate::scenes::{diffuse, point_light, points};
 use glam::DVec3;
 use quasilux_scene::light::AreaLight;
 use quasilux_scene::{Light, Scene};
-use quasilux_transport::{Settings, simulate};
+use quasilux_transport::{EstimatorKind, Settings, simulate};
 use std::f64::consts::PI;
 
 const LUMINANCE_CD_M2: f64 = 100.0;
@@ -72,7 +72,9 @@ fn a_tolerance_is_not_reached_by_a_handful_of_samples() {
     let mut wrong = 0;
     for seed in 0..100 {
         let max_samples = Some(4);
-        let settings = Settings { seed, max_samples, rel_tol: 0.2, ..Settings::default() };
+        let estimator = EstimatorKind::Path;
+        let settings =
+            Settings { estimator, seed, max_samples, rel_tol: 0.2, ..Settings::default() };
         let estimates = simulate(&scene, &settings, &mut ());
         let interval = estimates.point_intervals(0)[0];
         let is_narrow = interval.half_width.is_some_and(|width| width <= 0.2 * interval.value);
@@ -93,7 +95,9 @@ fn a_tolerance_is_reached_where_a_limit_leaves_enough_samples() {
     let mut scene = panel();
     scene.sensors = vec![points("below", &[(DVec3::new(0.5, 0.5, 0.0), DVec3::Z)])];
     for (samples, is_reached) in [(127, false), (128, true)] {
-        let settings = Settings { max_samples: Some(samples), rel_tol: 0.2, ..Settings::default() };
+        let estimator = EstimatorKind::Path;
+        let max_samples = Some(samples);
+        let settings = Settings { estimator, max_samples, rel_tol: 0.2, ..Settings::default() };
         assert_eq!(simulate(&scene, &settings, &mut ()).tolerance_reached, is_reached, "{samples}");
     }
 }

@@ -112,7 +112,8 @@ fn chains_past_the_depth_are_not_lost() {
         make_wall(&mut scene, first, mirror(0.5));
     }
     let photons = run(&scene, EstimatorKind::Photon, None);
-    let settings = Settings { image_depth: Some(1), ..Settings::default() };
+    let estimator = EstimatorKind::Path;
+    let settings = Settings { estimator, image_depth: Some(1), ..Settings::default() };
     let paths = simulate(&scene, &settings, &mut ());
     assert!(paths.biased && paths.tolerance_reached);
     assert!(
@@ -182,7 +183,8 @@ fn a_tilted_grid_is_lit_through_its_back() {
     };
     scene.sensors.push(Sensor { name: "tilted".to_owned(), shape: SensorShape::Grid(grid) });
     let value = |scene: &Scene, image_depth| {
-        let settings = Settings { image_depth, rel_tol: 0.005, ..Settings::default() };
+        let estimator = EstimatorKind::Path;
+        let settings = Settings { estimator, image_depth, rel_tol: 0.005, ..Settings::default() };
         let interval = simulate(scene, &settings, &mut ()).point_intervals(0)[0];
         assert!(interval.half_width.unwrap() <= 0.005 * interval.value, "{interval:?}");
         interval.value

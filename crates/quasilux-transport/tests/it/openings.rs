@@ -47,7 +47,7 @@ fn two_rooms([left_cd, right_cd]: [f64; 2], hole_m: f64) -> Scene {
 }
 
 /// A night lamp beside a bright room, behind a keyhole of 1 cm.
-pub(crate) fn keyhole() -> Scene {
+fn keyhole() -> Scene {
     two_rooms([0.3, 1e5], 0.01)
 }
 
@@ -55,11 +55,6 @@ fn run(scene: &Scene, estimator: EstimatorKind, samples: u64, seed: u64) -> Esti
     let max_samples = Some(samples);
     let settings = Settings { estimator, seed, max_samples, rel_tol: 0.02, ..Settings::default() };
     simulate(scene, &settings, &mut ())
-}
-
-fn without_interval(estimates: &Estimates) -> usize {
-    let intervals = estimates.point_intervals(0);
-    intervals.iter().filter(|interval| interval.half_width.is_none()).count()
 }
 
 /// A lamp of 10^6 cd behind a wall takes nothing from what is known of one of 0.3 cd before it:
@@ -87,9 +82,12 @@ fn a_hidden_lamp_takes_no_choice_from_a_weak_one() {
 fn light_behind_a_keyhole_is_told_by_all_seeds() {
     for seed in 0..8 {
         let estimates = run(&keyhole(), EstimatorKind::Auto, 512, seed);
+        let unseen = estimates.sensors[0].unseen.as_ref().expect("a bound");
         let intervals = estimates.point_intervals(0);
-        assert_eq!(without_interval(&estimates), PLACES.len(), "seed {seed}: {intervals:?}");
-        assert!(!estimates.tolerance_reached && !estimates.warnings.is_empty());
+        for (interval, unseen_lx) in intervals.iter().zip(&unseen.point_lx) {
+            assert!(*unseen_lx > interval.value, "seed {seed}: {interval:?}, {unseen_lx} lx");
+        }
+        assert!(!estimates.tolerance_reached, "seed {seed}");
     }
 }
 
@@ -97,18 +95,16 @@ fn light_behind_a_keyhole_is_told_by_all_seeds() {
 #[test]
 fn rooms_alike_are_no_secret() {
     for (seed, hole_m) in [(1, 0.0), (2, 0.0), (3, 1.2), (4, 1.2)] {
-        let estimates = run(&two_rooms([100.0, 120.0], hole_m), EstimatorKind::Auto, 512, seed);
-        assert_eq!(without_interval(&estimates), 0, "{hole_m}: {:?}", estimates.warnings);
+        let estimates = run(&two_rooms([100.0, 120.0], hole_m), EstimatorKind::Auto, 1 << 13, seed);
+        assert!(estimates.tolerance_reached, "{hole_m}: {:?}", estimates.sensors[0].unseen);
     }
 }
 
-/// A hole that bidirectional paths find well and that pilots of other estimators judge worse: they
-/// take points over, and all estimators agree.
+/// A hole that few plain paths find.
 #[test]
-fn bidirectional_paths_take_over_where_they_pay() {
+fn light_through_a_hole_is_found() {
     let scene = two_rooms([0.0, 1000.0], 0.25);
     let estimates = run(&scene, EstimatorKind::Auto, 1 << 12, 1);
-    assert!(estimates.relieved_points > 0, "{:?}", estimates.decisions);
     let reference = run(&scene, EstimatorKind::Path, 1 << 15, 2).point_intervals(0);
     for (found, expected) in estimates.point_intervals(0).iter().zip(&reference) {
         let Some((a, b)) = found.half_width.zip(expected.half_width) else { continue };

@@ -4,7 +4,6 @@ use crate::adaptivity::screened;
 use crate::agreement::coloured_room_with_mirror;
 use crate::dozen_scenes::{closed, glass_ball};
 use crate::images::add_panel;
-use crate::openings::keyhole;
 use crate::scenes::{mirror, point_light, points};
 use glam::DVec3;
 use quasilux_scene::{Camera, Scene};
@@ -126,7 +125,6 @@ fn runs() -> Vec<(&'static str, Scene, Settings)> {
         ("on a frozen map", with_points.clone(), mapped),
         ("on maps that grow", with_points, grown),
         ("hidden light", caustics, of_hidden),
-        ("auto", keyhole(), settings(EstimatorKind::Auto)),
         ("bidirectional", bidirectional, listing(EstimatorKind::Bidirectional)),
     ]
 }
@@ -201,8 +199,7 @@ fn points_that_are_done_stay_done() {
         let whole = simulate(&scene, &settings, &mut ());
         let samples: Vec<u64> = whole.sensors.iter().flat_map(|s| s.samples.clone()).collect();
         let some_are_done = samples.iter().any(|samples| *samples < whole.samples);
-        // What is taken over begins anew, and shows no slope so early.
-        let has_slope = whole.convergence.slope.is_some() || name == "auto";
+        let has_slope = whole.convergence.slope.is_some();
         assert!(some_are_done && has_slope, "{name}: {samples:?}");
         goes_on_to(&whole, &scene, &settings, name);
         let limited = Settings { max_rays: Some(whole.rays - 1), ..settings };

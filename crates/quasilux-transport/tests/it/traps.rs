@@ -67,7 +67,8 @@ fn light_that_was_not_found_is_not_zero() {
     }
     scene.lights.push(point_light(DVec3::new(0.5, 0.5, 0.5), 10.0));
     scene.sensors.push(points("dark", &[(DVec3::new(1.5, 0.5, 0.01), DVec3::Z)]));
-    let settings = Settings { max_samples: Some(1 << 9), ..Settings::default() };
+    let estimator = EstimatorKind::Path;
+    let settings = Settings { estimator, max_samples: Some(1 << 9), ..Settings::default() };
     let estimates = simulate(&scene, &settings, &mut ());
     let interval = estimates.point_intervals(0)[0];
     assert!(!estimates.tolerance_reached, "{interval:?}");

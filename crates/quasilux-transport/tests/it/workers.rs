@@ -3,7 +3,6 @@
 use crate::adaptivity::screened;
 use crate::agreement::coloured_room_with_mirror;
 use crate::dozen_scenes::{closed, glass_ball};
-use crate::openings::keyhole;
 use crate::scenes::{point_light, points};
 use glam::DVec3;
 use quasilux_scene::Scene;
@@ -182,7 +181,6 @@ fn workers_change_no_bit() {
         ("connected", &coloured, connected),
         ("on maps that grow", &coloured, mapped),
         ("hidden light", &caustics, settings(EstimatorKind::Path, 1 << 10)),
-        ("taken over", &keyhole(), settings(EstimatorKind::Auto, 1 << 11)),
         ("converged", &screened(), settings(EstimatorKind::Auto, 1 << 13)),
         ("long photon", &closed(0.5), long(EstimatorKind::Photon, 1 << 15)),
     ];
@@ -192,7 +190,7 @@ fn workers_change_no_bit() {
             *kinds.entry(kind).or_default() += blocks;
         }
     }
-    assert!(kinds.len() == 7 && kinds.values().all(|blocks| *blocks > 1), "{kinds:?}");
+    assert!(kinds.len() == 8 && kinds.values().all(|blocks| *blocks > 1), "{kinds:?}");
 }
 
 /// Workers that give up, and such that answer nonsense.

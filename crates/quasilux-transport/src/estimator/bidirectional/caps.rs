@@ -9,6 +9,7 @@
 mod search;
 mod surfaces;
 
+use super::asked_luminaires::AskedLuminaires;
 use super::engine::Engine;
 use super::plan::{FoundBy, Receiver, SUBPATHS};
 use super::samples::{crossings_of_discs, samples_at_emitters, samples_of_subpaths};
@@ -17,7 +18,7 @@ use crate::bsdf::Bsdf;
 use crate::spectrum::Spectrum;
 use crate::stats::targets::Target;
 use crate::stats::unseen::UNSEEN_CONFIDENCE;
-use crate::world::World;
+use crate::world::{Facet, World};
 use rayon::prelude::*;
 use std::f64::consts::PI;
 use surfaces::Surfaces;
@@ -41,6 +42,17 @@ struct Cap {
     on_cell_lx: f64,
 }
 
+/// The most that a sample of what comes straight to a target gives.
+#[derive(Clone, Copy, PartialEq)]
+enum Straight {
+    /// It is computed at points, and asked of all lights on cells.
+    Computed,
+    /// In lx.
+    AtMost(f64),
+    /// Hangs on the place of a point; of cells nothing is known.
+    OfLuminaires,
+}
+
 /// The light of one kind of lights.
 #[derive(Clone, Copy)]
 struct Kind {
@@ -52,11 +64,10 @@ struct Kind {
     met_lx: f64,
     /// K of both.
     eye_samples: f64,
-    /// Of what comes straight to a target, where that is sampled.
-    straight_lx: Option<f64>,
+    straight: Straight,
     /// Whether nothing but photons finds what comes over specular surfaces alone.
     is_hidden_by_mirrors: bool,
-    is_of_emitters: bool,
+    is_of_area: bool,
     /// Who finds it past narrow surfaces.
     found_by: FoundBy,
 }
@@ -71,11 +82,21 @@ impl Caps {
         let crossings = crossings_of_discs(world);
         let kinds = kinds(engine, &surfaces, samples);
         let has_specular = world.has_specular_facets();
+        let luminaires = AskedLuminaires::new(&context.lights.area_luminaires);
         let of_target = |receiver: &Receiver| {
             let joined_sr_m2 = if no_bounce { 0.0 } else { surfaces.joined(receiver) };
             let on_cell_lx = if receiver.is_cell() { surfaces.on_cell(receiver) } else { 0.0 };
+            let of_luminaires_lx = luminaires.most_lx(receiver);
             let largest = |kind: &Kind, samples: f64, crossings: f64| {
-                let class = Class { receiver, kind, joined_sr_m2, on_cell_lx, samples, crossings };
+                let class = Class {
+                    receiver,
+                    kind,
+                    joined_sr_m2,
+                    on_cell_lx,
+                    of_luminaires_lx,
+                    samples,
+                    crossings,
+                };
                 class.largest(&surfaces, has_specular, no_bounce)
             };
             let none = Cap { unseen_lx: 0.0, sample_lx: 0.0, on_cell_lx };
@@ -93,7 +114,11 @@ impl Caps {
         let of_eye_lx = if has_specular {
             f64::INFINITY
         } else {
-            let straight = |kind: &Kind| kind.straight_lx.unwrap_or(0.0);
+            let straight = |kind: &Kind| match kind.straight {
+                Straight::Computed => 0.0,
+                Straight::AtMost(lx) => lx,
+                Straight::OfLuminaires => f64::INFINITY,
+            };
             let of_kind = |kind: &Kind| straight(kind).max(kind.eye_samples * kind.eye_lx);
             let on_cells = of_targets.iter().map(|cap| cap.on_cell_lx).fold(0.0, f64::max);
             kinds.iter().map(of_kind).fold(on_cells, f64::max)
@@ -103,10 +128,16 @@ impl Caps {
 
     /// Of each target, the most in lx that a sample adds to one index. Nothing is known of samples
     /// where weights take other densities than those of what is sampled
-    /// ([`Bsdf::survival_pdf_sr`]).
+    /// ([`Bsdf::survival_pdf_sr`]), and where coated surfaces keep all light: of some of their
+    /// directions more goes on than came.
     pub(super) fn of_samples_lx<S: Spectrum>(&self, world: &World<S>) -> impl Iterator<Item = f64> {
-        let is_measured = world.bsdfs().iter().any(|bsdf| matches!(bsdf, Bsdf::Measured(_)));
-        let most_lx = move |cap: &Cap| if is_measured { f64::INFINITY } else { cap.sample_lx };
+        let is_unknown = |facet: &Facet| match world.bsdf_of(facet) {
+            Bsdf::Measured(_) => true,
+            Bsdf::Conductor(_) | Bsdf::Plastic(_) => world.most_survives_at(facet) >= 1.0,
+            _ => false,
+        };
+        let is_unknown = world.facets.iter().any(is_unknown);
+        let most_lx = move |cap: &Cap| if is_unknown { f64::INFINITY } else { cap.sample_lx };
         self.of_targets.iter().map(most_lx)
     }
 
@@ -139,6 +170,8 @@ struct Class<'c> {
     /// in sr^-1 m^-2.
     joined_sr_m2: f64,
     on_cell_lx: f64,
+    /// The most that a place on a luminaire with an area gives straight to a point.
+    of_luminaires_lx: f64,
     /// K of what has a sample at each vertex.
     samples: f64,
     /// K of photons on the disc between two surfaces that scatter.
@@ -155,7 +188,7 @@ impl Class<'_> {
     ) -> f64 {
         let &Self { receiver, kind, samples, crossings, .. } = self;
         // Numbers of samples over K and their caps; light that comes straight is met once.
-        let straight_disc = receiver.straight_m2(kind.is_of_emitters) / kind.flux_lm;
+        let straight_disc = receiver.straight_m2(kind.is_of_area) / kind.flux_lm;
         let disc = receiver.area_m2 / kind.flux_lm / (samples * crossings);
         let all_photons = receiver.photons(true, kind.found_by) / kind.flux_lm / crossings;
         let joined = SUBPATHS as f64 / (kind.flux_lm * self.joined_sr_m2 * samples);
@@ -166,9 +199,12 @@ impl Class<'_> {
         let mut class = |counts: f64| {
             largest = largest.max(if counts > 0.0 { counts.recip() } else { f64::INFINITY });
         };
-        let straight_lx = match receiver.target {
-            Target::Cell { .. } => kind.straight_lx.or(Some(self.on_cell_lx)),
-            Target::Point { .. } => kind.straight_lx,
+        let straight_lx = match (kind.straight, receiver.target) {
+            (Straight::Computed, Target::Point { .. }) => None,
+            (Straight::Computed, Target::Cell { .. }) => Some(self.on_cell_lx),
+            (Straight::AtMost(lx), _) => Some(lx),
+            (Straight::OfLuminaires, Target::Point { .. }) => Some(self.of_luminaires_lx),
+            (Straight::OfLuminaires, Target::Cell { .. }) => Some(f64::INFINITY),
         };
         if let Some(straight_lx) = straight_lx {
             class((straight_lx * scale).recip() + straight_disc);
@@ -214,22 +250,22 @@ fn kinds<S: Spectrum>(
         eye_lx: surfaces.lit_by_pointlikes(engine),
         met_lx: never,
         eye_samples: samples,
-        straight_lx: None,
+        straight: Straight::Computed,
         is_hidden_by_mirrors: images_hide,
-        is_of_emitters: false,
+        is_of_area: false,
         found_by: FoundBy::Photons,
     };
     let hidden = Kind { is_hidden_by_mirrors: true, ..lamps };
-    let luminaires =
-        Kind { flux_lm: luminaires_lm, eye_lx: never, straight_lx: Some(never), ..hidden };
+    let straight = Straight::OfLuminaires;
+    let luminaires = Kind { flux_lm: luminaires_lm, eye_lx: never, straight, ..hidden };
     let emitters = Kind {
         flux_lm: emitters_lm,
         eye_lx: largest_lx,
         met_lx: largest_lx,
         // Those that run into it bound what they find.
         eye_samples: samples_at_emitters(&context.world, samples),
-        straight_lx: Some(largest_lx),
-        is_of_emitters: true,
+        straight: Straight::AtMost(largest_lx),
+        is_of_area: true,
         found_by: engine.emitters_found_by,
         ..hidden
     };
@@ -239,12 +275,13 @@ fn kinds<S: Spectrum>(
         met_lx: sky_lx,
         // Whoever meets the sky is gone.
         eye_samples: 1.0,
-        straight_lx: Some(sky_lx),
+        straight: Straight::AtMost(sky_lx),
         found_by: engine.sky_found_by,
         ..hidden
     };
     let scattered_lx = outside.map_or(0.0, |outside| surfaces.lit_by_sun(outside));
-    let sun = Kind { flux_lm: sun_lm, eye_lx: scattered_lx, straight_lx: Some(sun_lx), ..hidden };
+    let straight = Straight::AtMost(sun_lx);
+    let sun = Kind { flux_lm: sun_lm, eye_lx: scattered_lx, straight, ..hidden };
     let all = [lamps, luminaires, emitters, sky, sun];
     all.into_iter().filter(|kind| kind.flux_lm > 0.0).collect()
 }

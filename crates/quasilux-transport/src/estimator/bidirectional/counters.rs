@@ -147,7 +147,7 @@ impl Receiver {
             return None;
         }
         let along_m = (self.position - from).dot(self.n) / approach;
-        let part = self.straight_part(passing.is_straight_from_emitters());
+        let part = self.straight_part(passing.is_straight_from_area());
         let square_m2 = self.radius_m? * self.radius_m? * part;
         let aside = from + direction * along_m - self.position;
         let is_on_way = 0.0 < along_m && along_m < length_m;
@@ -177,7 +177,7 @@ fn share<S: Spectrum>(
             (receiver.joins(&edge), is_narrow)
         }
     };
-    let part = receiver.straight_part(passing.is_straight_from_emitters());
+    let part = receiver.straight_part(passing.is_straight_from_area());
     let photons = receiver.photons(is_narrow, passing.found_by(engine)) * part;
     let others = weights.times(alone, 1.0).towards(cos * FRAC_1_PI);
     let weight = photons / (photons + others);

@@ -1,11 +1,13 @@
 //! What all subpaths need: the scene made ready, the shares of its lights, and the numbers of
 //! samples of each technique.
 
+use super::join_rate::plan_joins;
 use super::plan::{FoundBy, Receiver, largest_disc_m2, receivers};
 use super::sources::{Photon, PhotonFluxes, Sources};
 use crate::context::Context;
 use crate::lights::LightKind;
 use crate::spectrum::Spectrum;
+use crate::stats::tally::Quantum;
 use crate::stats::targets::Target;
 use std::f64::consts::PI;
 
@@ -19,6 +21,10 @@ pub(super) struct Engine<'l, 'a, S> {
     /// Who finds emitting facets past narrow surfaces, and the sky.
     pub(super) emitters_found_by: FoundBy,
     pub(super) sky_found_by: FoundBy,
+    /// Of the fluxes of photons.
+    pub(super) flux_quantum: Quantum,
+    /// Rays before the first sample.
+    pub(super) pilot_rays: u64,
 }
 
 impl<'l, 'a, S: Spectrum> Engine<'l, 'a, S> {
@@ -29,14 +35,18 @@ impl<'l, 'a, S: Spectrum> Engine<'l, 'a, S> {
         let sky_lx = lights.outside.as_ref().map_or(0.0, |it| PI * it.brightest_cd_m2());
         let fluxes = sources.photon_fluxes();
         let area_m2 = largest_disc_m2(&context.world);
-        Self {
+        let mut engine = Self {
             context,
             receivers: receivers(context, targets),
             emitters_found_by: FoundBy::new(emitters_lx, fluxes.emitters_lm / area_m2),
             sky_found_by: FoundBy::new(sky_lx, fluxes.sky_lm / area_m2),
+            flux_quantum: Quantum::for_reference(fluxes.most_lm().max(f64::MIN_POSITIVE)),
             fluxes,
             sources,
-        }
+            pilot_rays: 0,
+        };
+        engine.pilot_rays = plan_joins(&mut engine);
+        engine
     }
 
     /// Who finds the light of a photon past narrow surfaces.

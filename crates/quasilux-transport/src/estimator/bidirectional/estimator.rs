@@ -3,6 +3,7 @@
 
 use super::caps::Caps;
 use super::engine::Engine;
+use super::flux_tally::FluxTally;
 use super::plan::SUBPATHS;
 use super::sums::TargetSums;
 use super::unit::UnitSums;
@@ -56,11 +57,13 @@ pub(crate) struct BidirectionalEstimator<'a, S> {
 pub(super) struct Costs {
     pub(super) paths: WorkCounts,
     pub(super) photons: u64,
+    pub(super) flux: FluxTally,
 }
 
 impl Sums for Costs {
     fn checked_add(&mut self, other: &Self) -> Option<()> {
         self.paths.checked_add(&other.paths)?;
+        self.flux.checked_add(&other.flux)?;
         add_count(&mut self.photons, other.photons)
     }
 }
@@ -120,6 +123,7 @@ impl<'a, S: Spectrum> BidirectionalEstimator<'a, S> {
         }
         self.costs.paths += found.work.clone();
         self.costs.photons += found.photons;
+        self.costs.flux += &found.flux;
     }
 
     fn mean(&self, target: usize, sum: Sum) -> f64 {
@@ -210,11 +214,12 @@ impl<S: Spectrum> Estimator for BidirectionalEstimator<'_, S> {
             let least_trials = own.map(trials).fold(f64::INFINITY, f64::min);
             unseen.average_lx = self.caps.unseen_of_average_lx(&unseen.point_lx, least_trials);
         }
-        let Costs { paths, photons } = &self.costs;
+        let (engine, Costs { paths, photons, flux }) = (&self.engine, &self.costs);
         Estimates {
             sensors,
             samples: self.samples,
-            rays: paths.rays + self.prepared_rays,
+            rays: paths.rays + self.prepared_rays + engine.pilot_rays,
+            flux: flux.balance(&engine.context.lights, *photons, engine.flux_quantum),
             biased: paths.endless > 0,
             warnings: cutoff::warning(paths.endless, "paths", "values").into_iter().collect(),
             dimensions: Dimensions {

@@ -223,12 +223,10 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
         };
         // Photons that come straight.
         work.shadows.max_bounces = context.max_bounces.unwrap_or(u32::MAX);
-        let beside = |is_of_emitters: bool| EyeVertex {
+        let beside = |is_of_area: bool| EyeVertex {
             vertex,
             number: 0,
-            weights: EyeWeights(
-                [SubpathWeights::new(receiver.straight_m2(is_of_emitters), 0.0); 2],
-            ),
+            weights: EyeWeights([SubpathWeights::new(receiver.straight_m2(is_of_area), 0.0); 2]),
         };
         let eye_vertex = &beside(false);
         if receiver.is_cell() {
@@ -391,10 +389,10 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
     }
 
     /// What it weighs where it runs into a light: straight from the start photons take part.
-    fn straight(&self, weights: EyeWeights, is_of_emitters: bool) -> EyeWeights {
+    fn straight(&self, weights: EyeWeights, is_of_area: bool) -> EyeWeights {
         match self.vertices {
             0 => {
-                let photons = self.receiver.straight_m2(is_of_emitters);
+                let photons = self.receiver.straight_m2(is_of_area);
                 weights.map(|it| it.times(1.0, photons))
             }
             _ => weights,

@@ -3,6 +3,7 @@
 use glam::DVec3;
 use quasilux_photometry::Angles;
 use quasilux_scene::Light;
+use quasilux_scene::light::Luminaire;
 use std::f64::consts::PI;
 
 /// A light at a point, with its largest intensity by the angle from the pole of its table.
@@ -25,26 +26,27 @@ impl IntensityBound {
                 theta_rad: vec![0.0, PI],
                 most_cd: vec![point.intensity_cd; 2],
             }),
-            Light::Luminaire(luminaire) => {
-                let photometry = &luminaire.photometry;
-                let table = photometry.table();
-                let azimuths: Vec<f64> = table.phi_rad().collect();
-                let most = |theta_rad: &f64| {
-                    let at = |phi_rad: &f64| {
-                        let angles = Angles { theta_rad: *theta_rad, phi_rad: *phi_rad };
-                        table.value_at(angles)
-                    };
-                    luminaire.dimming * azimuths.iter().map(at).fold(0.0, f64::max)
-                };
-                let pole = photometry.web().luminaire_from_table(DVec3::Z);
-                Some(Self {
-                    position: luminaire.position,
-                    pole: luminaire.world_from_luminaire * pole,
-                    theta_rad: table.theta_rad().to_vec(),
-                    most_cd: table.theta_rad().iter().map(most).collect(),
-                })
-            }
+            Light::Luminaire(luminaire) => Some(Self::of_luminaire(luminaire)),
             Light::Area(_) => None,
+        }
+    }
+
+    /// Of a luminaire as if all of its light came from its centre.
+    pub(super) fn of_luminaire(luminaire: &Luminaire) -> Self {
+        let photometry = &luminaire.photometry;
+        let table = photometry.table();
+        let azimuths: Vec<f64> = table.phi_rad().collect();
+        let most = |theta_rad: &f64| {
+            let at =
+                |phi_rad: &f64| table.value_at(Angles { theta_rad: *theta_rad, phi_rad: *phi_rad });
+            luminaire.dimming * azimuths.iter().map(at).fold(0.0, f64::max)
+        };
+        let pole = photometry.web().luminaire_from_table(DVec3::Z);
+        Self {
+            position: luminaire.position,
+            pole: luminaire.world_from_luminaire * pole,
+            theta_rad: table.theta_rad().to_vec(),
+            most_cd: table.theta_rad().iter().map(most).collect(),
         }
     }
 
@@ -57,7 +59,7 @@ impl IntensityBound {
     }
 
     /// At least the intensity in cd toward any place of a hull.
-    fn most_cd(&self, hull: &Hull<'_>) -> f64 {
+    pub(super) fn most_cd(&self, hull: &Hull<'_>) -> f64 {
         let Hull { centre, radius_m, corners, distances_m: [near_m, far_m] } = *hull;
         // Around the direction of its centre.
         let way = centre - self.position;

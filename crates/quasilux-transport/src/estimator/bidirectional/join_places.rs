@@ -1,7 +1,6 @@
 //! What decides whether light vertices are joined to a target, coordinate by coordinate, so that
 //! several are decided on at a time.
 
-use super::plan::Receiver;
 use glam::DVec3;
 use std::ops::Range;
 
@@ -33,18 +32,18 @@ impl JoinPlaces {
         }
     }
 
-    /// The probability of a join of each with these numbers to a place of a target, 0 of those
-    /// behind it.
-    pub(super) fn probabilities(
+    /// The cosines over squared distance, in m^-2, between a place with the normal `n` and each with
+    /// these numbers; 0 of those behind it. Narrow surfaces may send more the lower, so of them the
+    /// cosine is left out.
+    pub(super) fn per_m2(
         &self,
         numbers: Range<usize>,
-        receiver: &Receiver,
+        n: DVec3,
         from: DVec3,
         found: &mut Vec<f64>,
     ) {
         let [x, y, z] = self.positions.each_ref().map(|axis| &axis[numbers.clone()]);
         let [nx, ny, nz] = self.normals.each_ref().map(|axis| &axis[numbers.clone()]);
-        let n = receiver.n;
         found.clear();
         found.resize(numbers.len(), 0.0);
         for (i, found) in found.iter_mut().enumerate() {
@@ -52,17 +51,15 @@ impl JoinPlaces {
             let front = n.x * dx + n.y * dy + n.z * dz;
             let behind = (nx[i] * dx + ny[i] * dy + nz[i] * dz).abs();
             let square_m2 = dx * dx + dy * dy + dz * dz;
-            let probability =
-                receiver.join_probability_of(front * behind / (square_m2 * square_m2));
-            *found = if front > 0.0 { probability } else { 0.0 };
+            let per_m2 = front * behind / (square_m2 * square_m2);
+            *found = if front > 0.0 { per_m2 } else { 0.0 };
         }
         let first = self.narrow.partition_point(|it| *it < numbers.start);
         for number in self.narrow[first..].iter().take_while(|it| **it < numbers.end) {
             let i = number - numbers.start;
             let way = DVec3::new(x[i], y[i], z[i]) - from;
             let square_m2 = way.length_squared();
-            let per_m2 = n.dot(way).max(0.0) / (square_m2 * square_m2.sqrt());
-            found[i] = receiver.join_probability_of(per_m2);
+            found[i] = n.dot(way).max(0.0) / (square_m2 * square_m2.sqrt());
         }
     }
 }

@@ -28,13 +28,13 @@ pub(super) struct Joiner<'r> {
 
 /// Working space of joins.
 pub(super) struct JoinWork<S> {
-    probabilities: Vec<f64>,
+    per_m2: Vec<f64>,
     pub(super) shadows: ShadowQueue<S>,
 }
 
 impl<S> Default for JoinWork<S> {
     fn default() -> Self {
-        Self { probabilities: Vec::new(), shadows: ShadowQueue::default() }
+        Self { per_m2: Vec::new(), shadows: ShadowQueue::default() }
     }
 }
 
@@ -49,11 +49,11 @@ impl Joiner<'_> {
         work: &mut JoinWork<S>,
     ) {
         let most = engine.context.max_bounces.unwrap_or(u32::MAX);
-        let JoinWork { probabilities, shadows } = work;
+        let JoinWork { per_m2, shadows } = work;
         let from = self.from.position();
-        light.places.probabilities(numbers.clone(), self.receiver, from, probabilities);
-        for (number, probability) in numbers.zip(probabilities) {
-            self.next -= *probability;
+        light.places.per_m2(numbers.clone(), self.receiver.n, from, per_m2);
+        for (number, per_m2) in numbers.zip(per_m2) {
+            self.next -= self.receiver.join_probability_of(*per_m2);
             if self.next < 0.0 {
                 self.next += 1.0;
                 let vertex = &light.vertices[number];

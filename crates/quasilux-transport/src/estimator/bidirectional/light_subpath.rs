@@ -6,6 +6,7 @@
 use super::arrival::{Arrival, Asks};
 use super::departure::Departure;
 use super::engine::Engine;
+use super::flux_tally::FluxTally;
 use super::join_places::{JoinPlace, JoinPlaces};
 use super::light_weights::LightWeights;
 use super::mirrored_way::MirroredWay;
@@ -105,6 +106,7 @@ pub(super) struct LightSubpaths<S> {
     pub(super) rays: u64,
     /// Cut on their way.
     pub(super) endless: u64,
+    pub(super) flux: FluxTally,
 }
 
 impl<S> LightSubpaths<S> {
@@ -128,10 +130,13 @@ impl<S: Spectrum> LightSubpaths<S> {
     ) -> Self {
         let world = &engine.context.world;
         let mut travelling: Vec<LightSubpath<'_, S>> = Vec::new();
-        let mut count = 0;
+        let (mut count, mut flux) = (0, FluxTally::default());
         for (number, sampler) in samplers.enumerate() {
             count = number + 1;
             travelling.extend(LightSubpath::new(engine, number, sampler));
+            if let Some(subpath) = travelling.last().filter(|it| it.number == number) {
+                flux.emit(subpath.lm(), engine.flux_quantum);
+            }
         }
         let mut found: Vec<FoundVertex<S>> = Vec::new();
         let (mut queries, mut hits, mut arrivals) =
@@ -150,10 +155,19 @@ impl<S: Spectrum> LightSubpaths<S> {
             travelling.retain_mut(|subpath| {
                 let at = arrivals.next().and_then(Option::as_ref);
                 pass(&subpath.passing(at));
-                at.is_some_and(|at| subpath.arrive(engine, at, &mut found))
+                match at {
+                    Some(at) => subpath.arrive(engine, at, &mut found, &mut flux),
+                    None => {
+                        flux.lose(subpath.lm(), engine.flux_quantum);
+                        false
+                    }
+                }
             });
         }
-        Self { rays, endless: travelling.len() as u64, ..Self::by_subpath(found, count) }
+        for subpath in &travelling {
+            flux.absorb(subpath.lm(), engine.flux_quantum);
+        }
+        Self { rays, endless: travelling.len() as u64, flux, ..Self::by_subpath(found, count) }
     }
 
     /// Vertices of so many subpaths.
@@ -166,7 +180,7 @@ impl<S: Spectrum> LightSubpaths<S> {
             places.push(JoinPlace { position: at.position, n: at.n, is_narrow: *is_narrow });
         }
         let vertices = found.into_iter().map(|it| it.vertex).collect();
-        Self { vertices, places, begins, rays: 0, endless: 0 }
+        Self { vertices, places, begins, rays: 0, endless: 0, flux: FluxTally::default() }
     }
 }
 
@@ -204,13 +218,17 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
         engine: &Engine<'_, '_, S>,
         at: &Interaction,
         found: &mut Vec<FoundVertex<S>>,
+        flux: &mut FluxTally,
     ) -> bool {
         let context = engine.context;
-        if context.max_bounces.is_some_and(|most| self.bounces >= most) {
-            return false;
-        }
         let (bsdf, frame) = (context.world.bsdf(at), context.world.frame(at));
         let wo = frame.to_local(-self.direction);
+        flux.absorb(self.lm(), engine.flux_quantum);
+        if context.max_bounces.is_some_and(|most| self.bounces >= most) {
+            let kept = bsdf.albedo(wo, at.front, TransportMode::Importance);
+            flux.cut((self.flux_lm * kept).luminance(), engine.flux_quantum);
+            return false;
+        }
         let left = self.flux_lm.max_channel();
         // What is not a number is left to the eye subpaths, which show it.
         if !(left > 0.0 && left.is_finite()) {
@@ -236,7 +254,7 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
                 self.leg = Leg { weights, distance_m: 0.0, last, class, mirrored };
             }
             self.leg.class = self.leg.class.after(&context.images, bsdf, at.facet, next.wi.z > 0.0);
-            return self.go_on(engine, at, &frame, &next);
+            return self.go_on(engine, at, &frame, &next, flux);
         }
         let weights = self.weights_at(engine, at, bsdf, wo.z);
         let (flux_lm, bounces) = (self.flux_lm, self.bounces);
@@ -251,7 +269,7 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
         let last = LastVertex::Surface { cos, is_narrow };
         let (class, mirrored) = (LightPathClass::Found, None);
         self.leg = Leg { weights, distance_m: 0.0, last, class, mirrored };
-        self.go_on(engine, at, &frame, &next)
+        self.go_on(engine, at, &frame, &next, flux)
     }
 
     /// Leaves a surface, if it survives.
@@ -261,6 +279,7 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
         at: &Interaction,
         frame: &Frame,
         next: &BsdfSample<S>,
+        flux: &mut FluxTally,
     ) -> bool {
         let world = &engine.context.world;
         let departure = Departure::survive(world, at, frame, next, 1.0, &mut self.sampler);
@@ -268,7 +287,13 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
         (self.from, self.direction) = (from, direction);
         self.flux_lm = self.flux_lm * factor;
         self.bounces += 1;
+        flux.leave(self.lm(), engine.flux_quantum);
         true
+    }
+
+    /// The flux that it carries, in lm.
+    fn lm(&self) -> f64 {
+        self.flux_lm.luminance()
     }
 
     /// What it weighs where it arrives at a vertex.
@@ -354,9 +379,10 @@ impl<S: Spectrum> Passing<'_, S> {
         matches!(self.leg.class, LightPathClass::Shown(_))
     }
 
-    /// Whether it comes straight from an emitting facet.
-    pub(super) fn is_straight_from_emitters(&self) -> bool {
-        matches!((self.leg.last, &self.photon.kind), (LastVertex::Light, LightKind::Emitters))
+    /// Whether it comes straight from a light with an area.
+    pub(super) fn is_straight_from_area(&self) -> bool {
+        let has_area = matches!(self.photon.kind, LightKind::Emitters | LightKind::Luminaire(_));
+        has_area && matches!(self.leg.last, LastVertex::Light)
     }
 
     /// The distance in m since the last vertex, after this part of the flight.

@@ -30,8 +30,8 @@
 //! over the mirrors that show it there. Surfaces ask for it over plane mirrors as well
 //! (`lights::images`), and all vertices for emitting facets (`mirrored_way`).
 //!
-//! The disc is smaller for light straight from emitting facets near by, whose illuminance changes
-//! over it: its radius is an eighth of the distance of the nearest at most.
+//! The disc is smaller for light straight from lights with an area near by, whose illuminance
+//! changes over it: its radius is an eighth of the distance of the nearest at most.
 //!
 //! A photon counts as one for each eye path in weights, however many there are, but where the last
 //! surface sends much into few directions: the little that it blurs, and the noise of photons,
@@ -48,7 +48,8 @@
 //! | joined to the target | flux / share x `f_r` x cosines over squared distance / q | specular last |
 //! | disc, cell | flux / share / A | |
 //!
-//! Luminaires with an area and lamps chosen from a table are bounded by joins and photons alone. Of
+//! What luminaires with an area give straight to points is bounded as it is asked for
+//! (`asked_luminaires`); else they and lamps chosen from a table by joins and photons alone. Of
 //! metal and coats `f_r` with its cosine is `1 / (2 pi alpha^3)` at the horizon, less where the
 //! direction is known (`peaks`). Of measured materials and of the sky suprema are looked up on
 //! grids, with a margin: all others are never too low. Samples are asserted to stay below caps, and
@@ -58,6 +59,7 @@
 //! Read on at `unit`, which traces all of this for some indices, and `estimator`.
 
 mod arrival;
+mod asked_luminaires;
 mod boxes;
 mod caps;
 mod counters;
@@ -65,8 +67,10 @@ mod departure;
 mod engine;
 mod estimator;
 mod eye_path;
+mod flux_tally;
 mod intensities;
 mod join_places;
+mod join_rate;
 mod joins;
 mod light_subpath;
 mod light_weights;

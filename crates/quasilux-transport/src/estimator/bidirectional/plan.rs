@@ -6,6 +6,7 @@
 //! Subpaths that serve only some of the targets are no even part of a point set, and made the error
 //! larger.
 
+use super::asked_luminaires::nearest_luminaire_m;
 use super::nearest_emitter::EmittingFacets;
 use crate::bsdf::Bsdf;
 use crate::context::Context;
@@ -32,8 +33,8 @@ const FAVOUR: f64 = 2.0;
 /// The radius of a disc in m, and as a share of the scene's size at most.
 const RADIUS_M: f64 = 0.1;
 const SHARE_OF_SIZE: f64 = 1.0 / 64.0;
-/// The radius of a disc for light straight from emitting facets, as a share of the distance of the
-/// nearest at most: over that distance their illuminance changes.
+/// The radius of a disc for light straight from lights with an area, as a share of the distance of
+/// the nearest at most: over that distance their illuminance changes.
 const SHARE_OF_DISTANCE: f64 = 0.125;
 /// Directions in which walls are looked for in the plane of a disc.
 const LOOKS: u32 = 64;
@@ -89,8 +90,8 @@ pub(super) struct Receiver {
     /// Of a disc.
     pub(super) radius_m: Option<f64>,
     /// The part of the disc, around the same centre, on which photons count that come straight from
-    /// emitting facets; 1 for cells.
-    pub(super) emitters_part: f64,
+    /// lights with an area; 1 for cells.
+    pub(super) near_part: f64,
     /// How many times brighter radiance is than in air, at most: in glass by the square of its
     /// index.
     pub(super) radiance_scale: f64,
@@ -158,8 +159,8 @@ impl Receiver {
         emitting: &EmittingFacets<'_, S>,
     ) -> Self {
         let world = &context.world;
-        // About half a join for each light subpath where its vertices lie evenly: one made cubes,
-        // mirrors and galleries slower by a fifth, a quarter corridors.
+        // Half a join for each light subpath where its vertices lie evenly, until pilots know more
+        // (`join_rate`).
         let per_sure_m2 = 0.5 * area_m2.max(f64::MIN_POSITIVE) / TAU;
         match *target {
             Target::Point { position, normal: n } => {
@@ -167,7 +168,13 @@ impl Receiver {
                 let Around { free_m, radiance_scale } = Around::new(world, from, n);
                 let radius_m = largest_radius_m(world).min(free_m).max(world.hair_m());
                 let area_m2 = PI * radius_m * radius_m;
-                let near_m = SHARE_OF_DISTANCE * emitting.distance_m(from.position(), n);
+                let luminaires = &context.lights.area_luminaires;
+                let nearest_m = emitting.distance_m(from.position(), n).min(nearest_luminaire_m(
+                    luminaires,
+                    from.position(),
+                    n,
+                ));
+                let near_m = (SHARE_OF_DISTANCE * nearest_m).max(world.hair_m());
                 let share = (near_m / radius_m).min(1.0);
                 Self {
                     target: *target,
@@ -175,7 +182,7 @@ impl Receiver {
                     n,
                     area_m2,
                     radius_m: Some(radius_m),
-                    emitters_part: share * share,
+                    near_part: share * share,
                     radiance_scale,
                     per_sure_m2,
                     most_lx: f64::INFINITY,
@@ -190,7 +197,7 @@ impl Receiver {
                     n: grid.normal,
                     area_m2,
                     radius_m: None,
-                    emitters_part: 1.0,
+                    near_part: 1.0,
                     // A part of it may hang in glass.
                     radiance_scale: most_scale,
                     per_sure_m2,
@@ -250,13 +257,13 @@ impl Receiver {
     }
 
     /// The part of its area on which photons count.
-    pub(super) fn straight_part(&self, is_straight_from_emitters: bool) -> f64 {
-        if is_straight_from_emitters { self.emitters_part } else { 1.0 }
+    pub(super) fn straight_part(&self, is_straight_from_area: bool) -> f64 {
+        if is_straight_from_area { self.near_part } else { 1.0 }
     }
 
     /// The area in m^2 on which photons count that come straight from a light.
-    pub(super) fn straight_m2(&self, is_of_emitters: bool) -> f64 {
-        self.area_m2 * self.straight_part(is_of_emitters)
+    pub(super) fn straight_m2(&self, is_of_area: bool) -> f64 {
+        self.area_m2 * self.straight_part(is_of_area)
     }
 
     pub(super) fn is_cell(&self) -> bool {

@@ -98,9 +98,8 @@ impl<S: Spectrum> BidirectionalEstimator<'_, S> {
     /// Has workers trace the units of a row, up to the checkpoint `coming`; `None` where there are
     /// no workers, `false` when the run was stopped.
     fn trace_by_workers(&mut self, row: &Row, coming: u64, watch: &mut Watch<'_>) -> Option<bool> {
-        let begins = vec![Some(0); self.ends.len()];
         let (samples, ends) = (self.samples, self.ends.clone());
-        let progress = PathProgress { samples, coming, begins, ends };
+        let progress = PathProgress { samples, coming, ends };
         let frame = || BlockFrame::Bidirectional { progress };
         let sums = self.growing.len().min(TARGETS) as u64;
         let size = BlockSize { paths: self.paths_of_a_unit() * PLAIN_PATHS, sums };
@@ -128,7 +127,7 @@ impl<S: Spectrum> BidirectionalEstimator<'_, S> {
         let BlockFrame::Bidirectional { progress } = frame else {
             return Err(StateError::Unfit("the kind of a block"));
         };
-        let PathProgress { samples, coming, ends, .. } = progress;
+        let PathProgress { samples, coming, ends } = progress;
         if ends.len() != self.ends.len() || samples >= coming {
             return Err(StateError::Unfit("the progress of the run"));
         }

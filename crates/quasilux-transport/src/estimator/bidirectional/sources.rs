@@ -30,6 +30,13 @@ pub(super) struct PhotonFluxes {
     pub(super) sun_lm: f64,
 }
 
+impl PhotonFluxes {
+    pub(super) fn most_lm(&self) -> f64 {
+        let Self { pointlikes_lm, luminaires_lm, emitters_lm, sky_lm, sun_lm } = *self;
+        [pointlikes_lm, luminaires_lm, emitters_lm, sky_lm, sun_lm].into_iter().fold(0.0, f64::max)
+    }
+}
+
 /// A photon that has just left its light.
 pub(super) struct Photon {
     pub(super) kind: LightKind,

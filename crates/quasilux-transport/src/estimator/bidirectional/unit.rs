@@ -6,6 +6,7 @@
 use super::counters::{Counters, Crossing};
 use super::engine::Engine;
 use super::eye_path::{EyePaths, SectionSums, Start};
+use super::flux_tally::FluxTally;
 use super::joins::{JoinWork, Joiner};
 use super::light_subpath::LightSubpaths;
 use super::plan::{Receiver, SUBPATHS, connected};
@@ -41,6 +42,7 @@ pub(super) struct UnitSums {
     pub(super) sums: Vec<TargetSums>,
     pub(super) work: WorkCounts,
     pub(super) photons: u64,
+    pub(super) flux: FluxTally,
 }
 
 impl Unit<'_> {
@@ -73,7 +75,7 @@ impl Unit<'_> {
         work.rays += self.join(engine, &receivers, &light, found);
         work += self.gather(engine, &receivers, &light, found);
         let photons = (self.indices.end - self.indices.start) * SUBPATHS;
-        UnitSums { sums, work, photons }
+        UnitSums { sums, work, photons, flux: light.flux }
     }
 
     /// Joins light vertices to the targets; the number of rays.

@@ -4,7 +4,7 @@
 use super::cell_tally::CellTally;
 use super::cell_transfer::CellTransfer;
 use super::lock;
-use super::receiver::{ConnectionReceiver, Group, Tallies};
+use super::receiver::{ConnectionReceiver, Group};
 use super::receiver_element::ReceiverElement;
 use super::{ConnectionPlan, TallySettings};
 use crate::codec::{Reader, StateError, Stored, Writer};
@@ -13,7 +13,6 @@ use crate::photon::batch::{PhotonBatch, trace_photons};
 use crate::photon::counts::PhotonCounts;
 use crate::photon::order::PhotonOrder;
 use crate::spectrum::Spectrum;
-use crate::stats::scores::Scores;
 use crate::stats::tally::{Quantum, Sum};
 use crate::stats::targets::Target;
 use crate::stats::watch::Watch;
@@ -37,8 +36,6 @@ pub(crate) struct LightVertexConnections {
     pub(super) quantum: Quantum,
     /// By group of targets and replicate; sums of target t of a group begin at `t * terms`.
     sums: Vec<Vec<Mutex<Vec<Sum>>>>,
-    /// Single connections to each target of a group, in all replicates.
-    scores: Vec<Mutex<Vec<Scores>>>,
     /// What each group of targets sees of the survey's cells, and the photons counted there.
     coarse: Option<(Vec<CellTransfer>, CellTally)>,
     /// By group and replicate: what the latter gave so far, see [`CellTally::lx`]; empty where no
@@ -72,9 +69,6 @@ impl LightVertexConnections {
             replicates.clone().map(|_| zeros()).collect()
         };
         let sums = elements.chunks(GROUP).map(of_group).collect();
-        let no_scores =
-            |group: &[ReceiverElement]| Mutex::new(vec![Scores::default(); group.len()]);
-        let scores = elements.chunks(GROUP).map(no_scores).collect();
         let mut rays = 0;
         let coarse = (connection.cell_photons > 0).then(|| {
             let look = |group: &[ReceiverElement]| {
@@ -96,7 +90,6 @@ impl LightVertexConnections {
             terms,
             quantum,
             sums,
-            scores,
             coarse,
             counted_lx: Vec::new(),
             rays,
@@ -183,11 +176,11 @@ impl LightVertexConnections {
         (self.connection.photons() * connected + counted) * self.replicates.len() as u64
     }
 
-    /// How many sums and scores there are.
+    /// How many sums there are.
     pub(crate) fn sum_count(&self) -> usize {
         let sums = self.elements.len() * self.terms * self.replicates.len();
         let of_cells = self.coarse.as_ref().map_or(0, |(_, coarse)| coarse.sum_count());
-        sums + self.elements.len() + of_cells
+        sums + of_cells
     }
 
     /// Adds the photons that belong to the indices up to `samples`, those that are connected and
@@ -227,8 +220,7 @@ impl LightVertexConnections {
             let receiver = |r: u32| {
                 let points = context.points(r, Stream::ConnectionPlaces(number));
                 let sums = &sums[(r - self.replicates.start) as usize];
-                let into = Tallies { sums, scores: &self.scores[number as usize] };
-                ConnectionReceiver::new(context, &self.connection, group, points, into)
+                ConnectionReceiver::new(context, &self.connection, group, points, sums)
             };
             let batch = PhotonBatch {
                 stream: Stream::ConnectedPhotons(number),
@@ -246,14 +238,12 @@ impl LightVertexConnections {
     pub(crate) fn clear_at(&mut self, index: u64) {
         self.samples = index;
         self.sums.iter().flatten().for_each(|sums| lock(sums).fill(Sum::default()));
-        self.scores.iter().for_each(|scores| lock(scores).fill(Scores::default()));
         self.coarse.iter().for_each(|(_, coarse)| coarse.clear());
     }
 
     /// Puts out the sums alone.
     pub(crate) fn put_sums(&self, out: &mut Writer) {
         self.sums.iter().flatten().for_each(|sums| lock(sums).as_slice().put(out));
-        self.scores.iter().for_each(|scores| lock(scores).as_slice().put(out));
         self.coarse.iter().for_each(|(_, coarse)| coarse.put(out));
     }
 
@@ -261,8 +251,6 @@ impl LightVertexConnections {
     pub(crate) fn merge_sums(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
         let mut sums = self.sums.iter().flatten();
         sums.try_for_each(|sums| lock(sums).as_mut_slice().merge_from(from))?;
-        let mut scores = self.scores.iter();
-        scores.try_for_each(|scores| lock(scores).as_mut_slice().merge_from(from))?;
         self.coarse.as_mut().map_or(Ok(()), |(_, coarse)| coarse.merge_from(from))
     }
 
@@ -347,13 +335,6 @@ impl LightVertexConnections {
     /// Whether any replicate found light.
     pub(crate) fn found(&self, target: usize) -> bool {
         (0..self.terms).any(|term| self.found_term(target, term))
-    }
-
-    /// Whether too few connections make the variance of a target.
-    pub(crate) fn hides_its_tail(&self, target: usize) -> bool {
-        let samples = self.ends[target].unwrap_or(self.samples) * self.connection.photons();
-        let scores = lock(&self.scores[target / GROUP]);
-        scores[target % GROUP].hide_their_tail(samples * self.replicates.len() as u64, 0.0)
     }
 
     /// Contributions that are not in the sums.

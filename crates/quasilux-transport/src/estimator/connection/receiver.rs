@@ -11,7 +11,6 @@ use crate::context::Context;
 use crate::importance::Density;
 use crate::photon::receiver::{PhotonReceiver, ReceiverCounts, SeenPhoton};
 use crate::spectrum::Spectrum;
-use crate::stats::scores::Scores;
 use crate::stats::tally::{Quantum, Sum};
 use crate::world::Interaction;
 use quasilux_bvh::RayQuery;
@@ -52,15 +51,6 @@ pub(super) struct Group<'a> {
     pub(super) quantum: Quantum,
 }
 
-/// Where connections of all waves are added, by target.
-#[derive(Clone, Copy)]
-pub(super) struct Tallies<'a> {
-    /// In one replicate, each target's terms one after the other.
-    pub(super) sums: &'a Mutex<Vec<Sum>>,
-    /// By single connections, in all replicates.
-    pub(super) scores: &'a Mutex<Vec<Scores>>,
-}
-
 /// Connects the photons of one wave to all targets of a group.
 pub(super) struct ConnectionReceiver<'a, S> {
     context: &'a Context<'a, S>,
@@ -69,9 +59,6 @@ pub(super) struct ConnectionReceiver<'a, S> {
     /// Where what this wave found is added in the end.
     sums: &'a Mutex<Vec<Sum>>,
     own: Vec<Sum>,
-    /// The same by single connections, of each target.
-    scores: &'a Mutex<Vec<Scores>>,
-    own_scores: Vec<Scores>,
     /// Coordinates of the places in cells that photons are connected to.
     points: PointSet,
     photon: Option<Seen>,
@@ -118,7 +105,7 @@ impl<'a, S: Spectrum> ConnectionReceiver<'a, S> {
         plan: &'a ConnectionPlan,
         group: Group<'a>,
         points: PointSet,
-        Tallies { sums, scores }: Tallies<'a>,
+        sums: &'a Mutex<Vec<Sum>>,
     ) -> Self {
         Self {
             context,
@@ -126,8 +113,6 @@ impl<'a, S: Spectrum> ConnectionReceiver<'a, S> {
             group,
             sums,
             own: vec![Sum::default(); group.elements.len() * group.terms],
-            scores,
-            own_scores: vec![Scores::default(); group.elements.len()],
             points,
             photon: None,
             landings: [Density::default(); 2],
@@ -208,9 +193,7 @@ impl<'a, S: Spectrum> ConnectionReceiver<'a, S> {
 
     /// Adds what one connection gives beyond its prediction.
     fn add(&mut self, sum: usize, lx: f64) {
-        let quantum = self.group.quantum;
-        self.own[sum].add_signed(lx, quantum);
-        self.own_scores[sum / self.group.terms].add(lx.abs(), quantum);
+        self.own[sum].add_signed(lx, self.group.quantum);
     }
 }
 
@@ -247,8 +230,6 @@ impl<S: Spectrum> PhotonReceiver<S> for ConnectionReceiver<'_, S> {
         self.answer();
         let mut sums = lock(self.sums);
         sums.iter_mut().zip(self.own).for_each(|(sum, own)| *sum += own);
-        let mut scores = lock(self.scores);
-        scores.iter_mut().zip(&self.own_scores).for_each(|(scores, own)| scores.merge(own));
         ReceiverCounts { rays: self.rays, invalid: 0 }
     }
 }

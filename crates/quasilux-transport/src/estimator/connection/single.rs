@@ -5,14 +5,13 @@ use super::cell_transfer::CellTransfer;
 use super::exitant_flux::ExitantFlux;
 use super::light_vertices::LightVertexConnections;
 use super::lock;
-use super::receiver::{ConnectionReceiver, Group, Seen, Tallies};
+use super::receiver::{ConnectionReceiver, Group, Seen};
 use crate::context::Context;
 use crate::photon::counts::PhotonCounts;
 use crate::photon::receiver::{PhotonReceiver, SeenPhoton};
 use crate::photon::trace::trace_photon;
 use crate::purpose::Purpose;
 use crate::spectrum::Spectrum;
-use crate::stats::scores::Scores;
 use crate::stats::tally::Sum;
 use crate::world::Interaction;
 use quasilux_sampling::{PointSet, Sampler};
@@ -60,9 +59,7 @@ impl LightVertexConnections {
         }
         let group = self.group(0);
         let sums = Mutex::new(vec![Sum::default(); group.elements.len() * group.terms]);
-        let scores = Mutex::new(vec![Scores::default(); group.elements.len()]);
-        let into = Tallies { sums: &sums, scores: &scores };
-        let mut receiver = ConnectionReceiver::new(context, &self.connection, group, places, into);
+        let mut receiver = ConnectionReceiver::new(context, &self.connection, group, places, &sums);
         trace_photon(context, self.connection.lead(), sampler, &mut receiver, counts);
         counts.rays += receiver.finish().rays;
         let sums = lock(&sums);

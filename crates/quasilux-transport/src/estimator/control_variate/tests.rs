@@ -64,16 +64,8 @@ impl Bench<'_> {
                     Paths::OnMap(map) => Rest::Frozen(map.end(number)),
                 };
                 let (caustics, partition, indices) = (None, None, 0..SAMPLES);
-                let section = Section {
-                    number,
-                    target,
-                    points,
-                    rest,
-                    caustics,
-                    partition,
-                    light_points: None,
-                    indices,
-                };
+                let section =
+                    Section { number, target, points, rest, caustics, partition, indices };
                 let wave = &mut PathWave::default();
                 let piece = trace_sections(self.context, &[section], self.quantum, wave);
                 rays += piece.work.rays;

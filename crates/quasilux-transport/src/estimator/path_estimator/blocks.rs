@@ -3,7 +3,7 @@
 use super::advance::ROUND;
 use super::{Costs, PathEstimator};
 use crate::codec::{Reader, StateError, Stored, Writer};
-use crate::estimator::block::{BlockFrame, PathProgress, PathRole};
+use crate::estimator::block::{BlockFrame, PathProgress};
 use crate::path::sections::{PathScores, PathSums, Piece, WorkCounts};
 use crate::photon::counts::PhotonCounts;
 use crate::spectrum::Spectrum;
@@ -12,14 +12,8 @@ use crate::stats::workers::BlockSize;
 use std::ops::Range;
 
 impl<S: Spectrum> PathEstimator<'_, S> {
-    /// For this purpose.
-    pub(crate) fn with_role(self, role: PathRole) -> Self {
-        Self { role, ..self }
-    }
-
     fn progress(&self, coming: u64) -> PathProgress {
-        let (begins, ends) = (self.begins.clone(), self.ends.clone());
-        PathProgress { samples: self.samples, coming, begins, ends }
+        PathProgress { samples: self.samples, coming, ends: self.ends.clone() }
     }
 
     /// Has workers trace the paths `indices` of all growing targets and replicates, up to the
@@ -32,7 +26,7 @@ impl<S: Spectrum> PathEstimator<'_, S> {
     ) -> Option<bool> {
         let pairs = self.growing.len() as u64 * u64::from(self.replicates);
         let paths = (indices.end - indices.start) * pairs;
-        let frame = || BlockFrame::Paths { role: self.role, progress: self.progress(coming) };
+        let frame = || BlockFrame::Paths { progress: self.progress(coming) };
         let size = BlockSize { paths: 1, sums: 0 };
         let blocks = watch.blocks(frame, self.done..paths, size)?;
         Some(watch.distribute(&blocks, &mut |from| {
@@ -77,8 +71,7 @@ impl<S: Spectrum> PathEstimator<'_, S> {
         frame: &BlockFrame,
         block: Range<u64>,
     ) -> Result<Vec<u8>, StateError> {
-        let (BlockFrame::Paths { progress, .. } | BlockFrame::ConnectedPhotons { progress }) =
-            frame
+        let (BlockFrame::Paths { progress } | BlockFrame::ConnectedPhotons { progress }) = frame
         else {
             return Err(StateError::Unfit("the kind of a block"));
         };
@@ -91,12 +84,12 @@ impl<S: Spectrum> PathEstimator<'_, S> {
 
     /// Goes to where another process is.
     fn follow(&mut self, progress: &PathProgress) -> Result<(), StateError> {
-        let PathProgress { samples, coming, begins, ends } = progress;
+        let PathProgress { samples, coming, ends } = progress;
         let targets = self.targets.len();
         // Maps that have grown do not shrink.
         let has_maps = self.end.photons(*coming).is_some() || self.caustics.is_some();
         let is_behind = (self.map_samples <= *coming || !has_maps) && samples < coming;
-        if [begins.len(), ends.len()] != [targets; 2] || !is_behind {
+        if ends.len() != targets || !is_behind {
             return Err(StateError::Unfit("the progress of the run"));
         }
         let mut nobody = ();
@@ -106,8 +99,7 @@ impl<S: Spectrum> PathEstimator<'_, S> {
         }
         self.map_samples = *coming;
         self.samples = *samples;
-        if self.begins != *begins || self.ends != *ends {
-            self.begins.clone_from(begins);
+        if self.ends != *ends {
             self.ends.clone_from(ends);
             self.keep_to_ends();
         }

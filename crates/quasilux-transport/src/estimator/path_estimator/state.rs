@@ -38,7 +38,6 @@ impl<S: Spectrum> PathEstimator<'_, S> {
         out.value(&self.samples);
         out.value(&self.done);
         out.value(&light_vertices.map_or(0, |light_vertices| light_vertices.samples()));
-        out.value(&self.begins);
         out.value(&self.ends);
         self.shared.put(out);
         self.end.put(out);
@@ -55,17 +54,11 @@ impl<S: Spectrum> PathEstimator<'_, S> {
         self.samples = from.value()?;
         self.done = from.value()?;
         let light_vertices: u64 = from.value()?;
-        let begins: Vec<Option<u64>> = from.value()?;
         let ends: Vec<Option<u64>> = from.value()?;
-        let are_ordered = begins.iter().zip(&ends).all(|(begin, end)| match (begin, end) {
-            (_, None) => begin.is_none_or(|begin| begin <= self.samples),
-            (None, Some(_)) => false,
-            (Some(begin), Some(end)) => begin < end,
-        });
-        if [begins.len(), ends.len()] != [self.targets.len(); 2] || !are_ordered {
+        if ends.len() != self.targets.len() {
             return Err(StateError::Unfit("the ends of targets"));
         }
-        (self.begins, self.ends) = (begins, ends);
+        self.ends = ends;
         self.shared.merge_from(from)?;
         self.end.merge_from(from)?;
         self.caustics.iter_mut().try_for_each(|caustics| caustics.merge_from(from))?;

@@ -157,7 +157,6 @@ pub(crate) fn trace<S: Spectrum, R: Default + Send>(
             rest: if paths.is_recorded { Rest::Recorded } else { Rest::Path },
             caustics: None,
             partition: paths.partition,
-            light_points: None,
             indices: 0..SAMPLES,
         };
         let mut records = R::default();

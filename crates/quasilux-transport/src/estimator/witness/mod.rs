@@ -13,16 +13,14 @@
 //! near a sensor have a heavy tail to the right, which makes Student's t of their mean small rather
 //! than large: the test errs on the side of silence.
 //!
-//! Photons take a twentieth of the rays of the run, as of each checkpoint, and paths as many, or
-//! the bidirectional paths of [`crate::estimator::auto`] in their place. What it finds is a
-//! function of scene, settings and that number of rays, and is computed anew where a run goes on or
-//! parts are merged: it has no state of its own.
+//! Photons take a twentieth of the rays of the run, as of each checkpoint, and paths as many. What
+//! it finds is a function of scene, settings and that number of rays, and is computed anew where a
+//! run goes on or parts are merged: it has no state of its own.
 
 mod blocks;
 mod receiver;
 
 use crate::context::{Context, Stream};
-use crate::estimator::auto;
 use crate::estimator::connection::ReceiverElement;
 use crate::path::end::Rest;
 use crate::path::sections::{Piece, Section, trace_sections};
@@ -90,12 +88,11 @@ impl<'a, S: Spectrum> Witness<'a, S> {
             && settings.max_bounces != Some(0)
             && settings.effective_replicates() > 1
             // Has a bound on what it does not see.
-            && settings.estimator != EstimatorKind::Bidirectional;
+            && !settings.estimator.is_bounded();
         if !is_of_use {
             return None;
         }
-        let has_paths = settings.estimator == EstimatorKind::Path
-            || settings.estimator == EstimatorKind::Auto && auto::is_possible(context, settings);
+        let has_paths = settings.estimator == EstimatorKind::Path;
         let element = |target: &Target| ReceiverElement::new(&context.world, target);
         let none = || Testimony {
             sums: vec![Sum::default(); targets.len() * BATCHES as usize],
@@ -202,7 +199,6 @@ impl<'a, S: Spectrum> Witness<'a, S> {
             rest: Rest::Path,
             caustics: None,
             partition: None,
-            light_points: None,
             indices: indices.clone(),
         };
         let sections = WAVE.div_ceil(length) as usize;

@@ -5,7 +5,6 @@ use super::{Path, PathWork};
 use crate::context::Context;
 use crate::lights::{Asking, EmitterPlace, EmitterPoint, Emitters};
 use crate::path::sketch::{ExpectedLights, MAX_LIGHTS, PixelSketch};
-use crate::path::subpath_weights::product;
 use crate::photon::virtual_lights::Site;
 use crate::purpose::Purpose;
 use crate::spectrum::Spectrum;
@@ -36,7 +35,6 @@ impl<S: Spectrum> Path<'_, S> {
         self.sample_direct_emitters(context, &vertex, work);
         self.sample_direct_emitter_images(context, &vertex, work);
         self.sample_direct_outside(context, &vertex, work);
-        self.connect(context, &vertex, work);
     }
 
     /// Asks for the light of point-like lights in mirrors.
@@ -49,9 +47,7 @@ impl<S: Spectrum> Path<'_, S> {
         if !context.images.is_empty() {
             let choice = Purpose::Image { surface: self.bounces_asked };
             let u = context.draw(&mut self.sampler, choice, Sampler::next_1d);
-            let share = |_: u32, direction: DVec3, lx: f64| {
-                self.weight_beside_landings(vertex, direction, lx / context.lights.lamps_lm)
-            };
+            let share = |_: u32, _: DVec3, _: f64| 1.0;
             let query = context.image_query(self.number, vertex);
             let PathWork { shadows, images, .. } = work;
             context.images.sample_direct(&query, u, share, images, shadows);
@@ -68,7 +64,7 @@ impl<S: Spectrum> Path<'_, S> {
         if let Some(emitters) = &context.lights.emitters {
             let place = Purpose::AreaLight { surface: self.bounces_asked };
             let u = context.draw(&mut self.sampler, place, Sampler::next_2d);
-            let beside_sr = self.beside_emitter_samples(context, vertex);
+            let beside_sr = Self::beside_emitter_samples(vertex);
             let light_sample =
                 emitters.light_sample(&context.world, vertex, u, beside_sr, &mut work.choice);
             self.asked_from = Some(Asking::at(vertex));
@@ -101,30 +97,18 @@ impl<S: Spectrum> Path<'_, S> {
         }
         let place = Purpose::AreaLightImage { surface: self.bounces_asked };
         let u = context.draw(&mut self.sampler, place, Sampler::next_2d);
-        let beside_sr = self.beside_emitter_samples(context, vertex);
+        let beside_sr = Self::beside_emitter_samples(vertex);
         let query = context.image_query(self.number, vertex);
         let PathWork { shadows, images, .. } = work;
         context.images.sample_emitters(&query, u, beside_sr, images, shadows);
     }
 
     /// Of a point on a light, what weighs beside the density of asking for it, in sr^-1: by the
-    /// power heuristic the direction in which the path goes on, by the balance heuristic that and
-    /// light subpaths.
-    fn beside_emitter_samples(
-        &self,
-        context: &Context<'_, S>,
-        vertex: &Vertex<'_, S>,
-    ) -> impl Fn(&EmitterPoint) -> f64 {
-        let (subpath, flux_lm) = (self.subpath, context.lights.lamps_lm);
-        move |&EmitterPoint { direction, lx_sr, pdf_sr, .. }| match subpath {
-            None => {
-                let beside_sr = vertex.pdf_sr(direction);
-                beside_sr * (beside_sr / pdf_sr)
-            }
-            Some(weights) => {
-                let to_eye = weights.towards(vertex.reverse_pdf_sr(direction));
-                vertex.partition_pdf_sr(direction) + product(lx_sr / flux_lm, to_eye)
-            }
+    /// power heuristic the direction in which the path goes on.
+    fn beside_emitter_samples(vertex: &Vertex<'_, S>) -> impl Fn(&EmitterPoint) -> f64 {
+        move |&EmitterPoint { direction, pdf_sr, .. }| {
+            let beside_sr = vertex.pdf_sr(direction);
+            beside_sr * (beside_sr / pdf_sr)
         }
     }
 
@@ -146,7 +130,6 @@ impl<S: Spectrum> Path<'_, S> {
                 let part = |u: f64| (f64::from(number) + u) / f64::from(count);
                 let choice = choice.map(|[first, second]| [part(first), second]);
                 let light_sample = lights.light_sample(vertex, choice, u, &mut work.choice);
-                let light_sample = self.beside_landings(context, vertex, light_sample);
                 let light_sample = light_sample.map(|it| {
                     let light = it.light * f64::from(count).recip();
                     LightSample { light, ..it }
@@ -175,7 +158,6 @@ impl<S: Spectrum> Path<'_, S> {
                 _ => context.draw(&mut self.sampler, choice, Sampler::next_2d),
             };
             let light_sample = lights.light_sample(vertex, u, &mut work.choice);
-            let light_sample = self.beside_landings(context, vertex, light_sample);
             self.ask(light_sample, vertex, work);
         }
     }
@@ -211,20 +193,6 @@ impl<S: Spectrum> Path<'_, S> {
             }
             self.found.add(self.bounces_asked, sample.light * expected);
         }
-    }
-
-    /// The part of it that light subpaths leave.
-    fn beside_landings(
-        &self,
-        context: &Context<'_, S>,
-        vertex: &Vertex<'_, S>,
-        light_sample: Option<LightSample<S>>,
-    ) -> Option<LightSample<S>> {
-        light_sample.map(|light_sample| {
-            let landings_m2 = light_sample.illuminance_lx / context.lights.lamps_lm;
-            let share = self.weight_beside_landings(vertex, light_sample.direction, landings_m2);
-            LightSample { light: light_sample.light * share, ..light_sample }
-        })
     }
 
     pub(super) fn ask(

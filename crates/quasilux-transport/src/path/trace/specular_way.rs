@@ -8,7 +8,6 @@ use crate::lights::EmitterPlace;
 use crate::path::end::Rest;
 use crate::spectrum::Spectrum;
 use crate::world::Interaction;
-use glam::DVec3;
 
 /// Mirrors or panes that a path met one after the other, and nothing else since it last asked for
 /// light.
@@ -103,20 +102,16 @@ impl<S: Spectrum> Path<'_, S> {
         (asks && context.lights.emitters.is_some()).then(|| SpecularWay::new(pdf_sr))
     }
 
-    /// Notes that it goes on from a surface, from `wo` in its frame to what was drawn.
+    /// Notes that it goes on from a surface, to what was drawn.
     pub(super) fn note_specular_way(
         &mut self,
         context: &Context<'_, S>,
         at: &Interaction,
-        wo: DVec3,
         next: &BsdfSample<S>,
     ) {
         let way = self.specular_way.take();
         self.specular_way = match next.pdf_sr {
-            Some(pdf_sr) => {
-                let of_partition = |_| context.world.bsdf(at).partition_pdf_sr(wo, next.wi);
-                self.specular_way(context, self.subpath.map_or(pdf_sr, of_partition))
-            }
+            Some(pdf_sr) => self.specular_way(context, pdf_sr),
             None => way.and_then(|way| way.past(context, at, next.wi.z > 0.0)),
         };
     }

@@ -91,17 +91,17 @@ impl<S: Spectrum> EyePath<'_, S> {
         images.sample_direct(&query, u, share, &mut work.images, &mut work.shadows);
     }
 
-    /// Asks for the light of lights with an extent, and from outside; `beside_emitters` has the
-    /// weights where photons come straight from emitting facets.
+    /// Asks for the light of lights with an area, and from outside; `beside_area` has the weights
+    /// where photons come straight from those with an area.
     pub(super) fn sample_direct_areas(
         &mut self,
         engine: &Engine<'_, '_, S>,
         eye_vertex: &EyeVertex<'_, '_, S>,
-        beside_emitters: &EyeVertex<'_, '_, S>,
+        beside_area: &EyeVertex<'_, '_, S>,
         work: &mut EyePaths<S>,
     ) {
-        self.sample_direct_luminaire(engine, eye_vertex, work);
-        self.sample_direct_emitter(engine, beside_emitters, work);
+        self.sample_direct_luminaire(engine, beside_area, work);
+        self.sample_direct_emitter(engine, beside_area, work);
         self.sample_direct_outside(engine, eye_vertex, work);
         self.sample_direct_emitter_images(engine, eye_vertex, work);
     }
@@ -189,8 +189,7 @@ impl<S: Spectrum> EyePath<'_, S> {
             let hit = eye_vertex.survival_pdf_sr(direction) / pdf_sr;
             let lx = cd_m2 * cos / pdf_sr * of_connection(landed, hit);
             let light = vertex.weight(direction) * lx;
-            let sample = LightSample::unless_dark(direction, outside.beyond_m(), light, lx)?;
-            Some(LightSample { is_from_outside: true, ..sample })
+            LightSample::unless_dark(direction, outside.beyond_m(), light, lx)
         };
         if outside.is_asked_for() {
             let u = self.sampler.next_2d();
