@@ -257,7 +257,8 @@ fn kinds<S: Spectrum>(
     };
     let hidden = Kind { is_hidden_by_mirrors: true, ..lamps };
     let straight = Straight::OfLuminaires;
-    let luminaires = Kind { flux_lm: luminaires_lm, eye_lx: never, straight, ..hidden };
+    let luminaires =
+        Kind { flux_lm: luminaires_lm, eye_lx: never, straight, is_of_area: true, ..hidden };
     let emitters = Kind {
         flux_lm: emitters_lm,
         eye_lx: largest_lx,
