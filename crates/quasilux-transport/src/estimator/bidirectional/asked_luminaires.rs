@@ -8,7 +8,6 @@
 //! the smallest along an axis.
 
 use super::intensities::{Hull, IntensityBound};
-use super::plan::Receiver;
 use crate::lights::{AreaLuminaires, Asking};
 use glam::DVec3;
 use quasilux_scene::light::Luminaire;
@@ -27,8 +26,7 @@ impl<'l, 'a> AskedLuminaires<'l, 'a> {
     }
 
     /// The most in lx that a place that is asked gives to a point.
-    pub(super) fn most_lx(&self, receiver: &Receiver) -> f64 {
-        let &Receiver { position, n, .. } = receiver;
+    pub(super) fn most_lx(&self, position: DVec3, n: DVec3) -> f64 {
         let asking = Asking { position, side: Some(n), own: None };
         let of_light = |(number, bound): (usize, &IntensityBound)| {
             let luminaire = self.lights.get(number)?;

@@ -1,7 +1,6 @@
 //! What all subpaths need: the scene made ready, the shares of its lights, and the numbers of
 //! samples of each technique.
 
-use super::join_rate::plan_joins;
 use super::plan::{FoundBy, Receiver, largest_disc_m2, receivers};
 use super::sources::{Photon, PhotonFluxes, Sources};
 use crate::context::Context;
@@ -23,8 +22,6 @@ pub(super) struct Engine<'l, 'a, S> {
     pub(super) sky_found_by: FoundBy,
     /// Of the fluxes of photons.
     pub(super) flux_quantum: Quantum,
-    /// Rays before the first sample.
-    pub(super) pilot_rays: u64,
 }
 
 impl<'l, 'a, S: Spectrum> Engine<'l, 'a, S> {
@@ -35,7 +32,7 @@ impl<'l, 'a, S: Spectrum> Engine<'l, 'a, S> {
         let sky_lx = lights.outside.as_ref().map_or(0.0, |it| PI * it.brightest_cd_m2());
         let fluxes = sources.photon_fluxes();
         let area_m2 = largest_disc_m2(&context.world);
-        let mut engine = Self {
+        Self {
             context,
             receivers: receivers(context, targets),
             emitters_found_by: FoundBy::new(emitters_lx, fluxes.emitters_lm / area_m2),
@@ -43,10 +40,7 @@ impl<'l, 'a, S: Spectrum> Engine<'l, 'a, S> {
             flux_quantum: Quantum::for_reference(fluxes.most_lm().max(f64::MIN_POSITIVE)),
             fluxes,
             sources,
-            pilot_rays: 0,
-        };
-        engine.pilot_rays = plan_joins(&mut engine);
-        engine
+        }
     }
 
     /// Who finds the light of a photon past narrow surfaces.

@@ -4,6 +4,7 @@
 use super::caps::Caps;
 use super::engine::Engine;
 use super::flux_tally::FluxTally;
+use super::join_rate::plan_joins;
 use super::plan::SUBPATHS;
 use super::sums::TargetSums;
 use super::unit::UnitSums;
@@ -80,6 +81,7 @@ impl<'a, S: Spectrum> BidirectionalEstimator<'a, S> {
             invalid_points += 1;
         }
         let mut engine = Engine::new(context, &targets);
+        prepared_rays += plan_joins(&mut engine);
         let caps = Caps::new(&engine);
         for (receiver, most_lx) in
             engine.receivers.iter_mut().zip(caps.of_samples_lx(&context.world))
@@ -218,7 +220,7 @@ impl<S: Spectrum> Estimator for BidirectionalEstimator<'_, S> {
         Estimates {
             sensors,
             samples: self.samples,
-            rays: paths.rays + self.prepared_rays + engine.pilot_rays,
+            rays: paths.rays + self.prepared_rays,
             flux: flux.balance(&engine.context.lights, *photons, engine.flux_quantum),
             biased: paths.endless > 0,
             warnings: cutoff::warning(paths.endless, "paths", "values").into_iter().collect(),

@@ -239,21 +239,7 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
         };
         if bsdf.is_specular() {
             let Some(next) = next(&mut self.sampler) else { return false };
-            let goes_straight = next.wi.z < 0.0 && bsdf.straight_transmittance(1.0).is_some();
-            if goes_straight {
-                self.leg.distance_m += at.distance_m;
-                self.leg.mirrored = None;
-            } else {
-                let weights = self.weights_at(engine, at, bsdf, wo.z);
-                let last = LastVertex::Surface { cos: next.wi.z.abs(), is_narrow: true };
-                let scale = bsdf.radiance_scale(next.wi, at.front);
-                let weights = weights.mirrored(wo.z.abs(), scale);
-                let class = self.leg.class;
-                let mirrored = self.leg.mirrored.take().filter(|_| next.wi.z > 0.0);
-                let mirrored = mirrored.and_then(|way| way.past(context, at, bsdf, wo.z));
-                self.leg = Leg { weights, distance_m: 0.0, last, class, mirrored };
-            }
-            self.leg.class = self.leg.class.after(&context.images, bsdf, at.facet, next.wi.z > 0.0);
+            self.pass_specular(engine, at, wo.z, &next);
             return self.go_on(engine, at, &frame, &next, flux);
         }
         let weights = self.weights_at(engine, at, bsdf, wo.z);
@@ -270,6 +256,33 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
         let (class, mirrored) = (LightPathClass::Found, None);
         self.leg = Leg { weights, distance_m: 0.0, last, class, mirrored };
         self.go_on(engine, at, &frame, &next, flux)
+    }
+
+    /// Goes on from a specular surface: straight through a pane, or with a leg of its own.
+    fn pass_specular(
+        &mut self,
+        engine: &Engine<'_, '_, S>,
+        at: &Interaction,
+        cos_wo: f64,
+        next: &BsdfSample<S>,
+    ) {
+        let context = engine.context;
+        let bsdf = context.world.bsdf(at);
+        let goes_straight = next.wi.z < 0.0 && bsdf.straight_transmittance(1.0).is_some();
+        if goes_straight {
+            self.leg.distance_m += at.distance_m;
+            self.leg.mirrored = None;
+        } else {
+            let weights = self.weights_at(engine, at, bsdf, cos_wo);
+            let last = LastVertex::Surface { cos: next.wi.z.abs(), is_narrow: true };
+            let scale = bsdf.radiance_scale(next.wi, at.front);
+            let weights = weights.mirrored(cos_wo.abs(), scale);
+            let class = self.leg.class;
+            let mirrored = self.leg.mirrored.take().filter(|_| next.wi.z > 0.0);
+            let mirrored = mirrored.and_then(|way| way.past(context, at, bsdf, cos_wo));
+            self.leg = Leg { weights, distance_m: 0.0, last, class, mirrored };
+        }
+        self.leg.class = self.leg.class.after(&context.images, bsdf, at.facet, next.wi.z > 0.0);
     }
 
     /// Leaves a surface, if it survives.
