@@ -10,26 +10,26 @@
 //! repeatable: `build`, `scene_sha256`, and all [`Settings`] by the names of their fields, but for
 //! limits: a run that was stopped at some number of samples writes what one that was asked for this
 //! number writes. `replicates` counts those that differ. `seconds` are those of the whole run,
-//! `earlier` says how many of them it took before it was resumed, and `maintenance_factor` what
-//! all lights were dimmed by. Beside each value stands what its samples leave open, `null` of
+//! `earlier` says how many of them it took before it was resumed, and `maintenance_factor` what all
+//! lights were dimmed by. Beside each value stands what its samples leave open, `null` of
 //! estimators without a bound and where nothing is known: `unseen_lx`, the light at most that no
 //! sample met, with `unseen_confidence`, `merged_lx`, the part of the value that is known as a mean
 //! over a disc of `disc_radius_m` around the point; `unseen_tol` is a share or "off", and
-//! `cannot_see` has the classes of light paths that the estimator cannot make.
-//! Then `decisions`, what pilots made of the settings (what they `selected` and why, photons
-//! connected for each path (`connected_photons`), whether photons follow `importance` and leave lit places, sides of elements of the map that paths end on,
-//! photons for each path that look for light which paths cannot find; `null` where there are none),
-//! `prediction` (see `prediction.rs`), `flux_cut_lm`, the flux that `max_bounces` cut, and
-//! `dimension_counts`: how many photons and paths used 0, 1, 2, .. coordinates, in one list each,
-//! all of more than 1023 together at its end, `photons`, how many began in all, `null` where none
-//! did, and `mean_events`, surfaces that a `photon` came to on average. A point that reached its
-//! tolerance before others has its own number of `samples`. Where the sky shines, `outside` has its
-//! horizontal illuminance, and where nothing else does each point its `daylight_factor`, a share;
-//! beside openings in its parts, `sky_component`, `externally_reflected_component` and
-//! `internally_reflected_component`.
-//! Where it was asked for, `explain` says which coordinates carry the variance. `findings` are what
-//! is probably wrong with the scene, each with the `check` that found it, place and `cure`;
-//! `warnings` have them as text, too.
+//! `cannot_see` has the classes of light paths that the estimator cannot make. Then `decisions`,
+//! what pilots made of the settings (what they `selected` and why, photons connected for each path
+//! (`connected_photons`), whether photons follow `importance` and leave lit places, sides of
+//! elements of the map that paths end on, photons for each path that look for light which paths
+//! cannot find; `null` where there are none), `prediction` (see `prediction.rs`), `flux_cut_lm`,
+//! the flux that `max_bounces` cut, and `dimension_counts`: how many photons and paths used 0, 1,
+//! 2, .. coordinates, in one list each, all of more than 1023 together at its end, `photons`, how
+//! many began in all, `null` where none did, and `mean_events`, surfaces that a `photon` came to on
+//! average. A point that reached its tolerance before others has its own number of `samples`. Where
+//! the sky shines, `outside` has its horizontal illuminance, and where nothing else does each point
+//! its `daylight_factor`, a share; beside openings in its parts, `sky_component`,
+//! `externally_reflected_component` and `internally_reflected_component`. Where it was asked for,
+//! `explain` says which coordinates carry the variance. `findings` are what is probably wrong with
+//! the scene, each with the `check` that found it, place and `cure`; `warnings` have them as text,
+//! too.
 
 mod camera;
 mod explanation;

@@ -95,7 +95,8 @@ pub(crate) fn add_light(scene: &mut Scene, Panel { corner, u, v }: Panel) {
     scene.lights.push(Light::Area(AreaLight { material, triangles, area_m2, luminance_cd_m2 }));
 }
 
-/// By paths and by bidirectional paths: each point within 4 standard errors and the error of the reference, and known to 1 %.
+/// By paths and by bidirectional paths: each point within 4 standard errors and the error of the
+/// reference, and known to 1 %.
 pub(crate) fn assert_lx(scene: &Scene, seed: u64, expected_lx: &[f64]) {
     let settings = Settings {
         estimator: EstimatorKind::Path,

@@ -1,11 +1,11 @@
 //! What luminaires with a luminous area give straight to a point, of each over the chance to ask
 //! it, at most.
 //!
-//! A place y on the shape S around c, drawn along the direction w0 from c to the point x, gives `I(w)
-//! p(w, y) / p(w0, y) (n.-w) / |x - y|^2` with w from y to x (`lights::area_luminaires`). On flat
-//! shapes the densities are equal. On solids, which are convex, `n_y.(x - y) <= n_y.(x - c)` makes
-//! their ratio `|x - c| / |x - y| A(w0) / A(w)` at most, and the silhouette A is never smaller than
-//! the smallest along an axis.
+//! A place y on the shape S around c, drawn along the direction w0 from c to the point x, gives
+//! `I(w) p(w, y) / p(w0, y) (n.-w) / |x - y|^2` with w from y to x (`lights::area_luminaires`). On
+//! flat shapes the densities are equal. On solids, which are convex, `n_y.(x - y) <= n_y.(x - c)`
+//! makes their ratio `|x - c| / |x - y| A(w0) / A(w)` at most, and the silhouette A is never
+//! smaller than the smallest along an axis.
 
 use super::intensities::{Hull, IntensityBound};
 use crate::lights::{AreaLuminaires, Asking};

@@ -32,9 +32,9 @@ impl JoinPlaces {
         }
     }
 
-    /// The cosines over squared distance, in m^-2, between a place with the normal `n` and each with
-    /// these numbers; 0 of those behind it. Narrow surfaces may send more the lower, so of them the
-    /// cosine is left out.
+    /// The cosines over squared distance, in m^-2, between a place with the normal `n` and each
+    /// with these numbers; 0 of those behind it. Narrow surfaces may send more the lower, so of
+    /// them the cosine is left out.
     pub(super) fn per_m2(
         &self,
         numbers: Range<usize>,
