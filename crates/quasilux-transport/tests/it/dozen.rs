@@ -25,7 +25,7 @@ const WIDEST: f64 = 0.003;
 /// The standard error of each that leads there.
 const STANDARD_ERROR: f64 = 0.00055;
 const MIN_SAMPLES: u64 = 1 << 9;
-const MAX_SAMPLES: u64 = 1 << 18;
+const MAX_SAMPLES: u64 = 1 << 17;
 
 /// The mean of replicates.
 #[derive(Clone, Copy, Debug)]

@@ -120,8 +120,12 @@ pub(super) fn favour(number: usize) -> f64 {
 }
 
 /// The light subpath that the eye path of a target with this index is connected to.
+///
+/// The first digits of coordinates follow the number of a subpath, and those of an eye path the
+/// lowest digits of its index. From one [`SUBPATHS`] indices to the next the pairs are shifted by
+/// one: so each first part of the eye paths meets all subpaths alike, in as many steps.
 pub(super) fn connected(target: usize, index: u64) -> u64 {
-    (target as u64).wrapping_add(index) % SUBPATHS
+    (target as u64).wrapping_add(index).wrapping_add(index / SUBPATHS) % SUBPATHS
 }
 
 /// What rays meet around a point with the normal `n`.
@@ -268,5 +272,23 @@ impl Receiver {
 
     pub(super) fn is_cell(&self) -> bool {
         self.radius_m.is_none()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Eye paths whose coordinates begin alike, those of every 32nd index, meet all subpaths
+    /// equally often: each once in 1024 indices, and none twice before. With one subpath for all of
+    /// them the error of rooms with two lamps stopped to shrink at 0.1 %.
+    #[test]
+    fn eye_paths_that_begin_alike_meet_all_subpaths() {
+        for (target, first) in [(0, 0), (5, 1), (1000, 31)] {
+            let alike = (0..SUBPATHS).map(|step| first + step * SUBPATHS);
+            let mut met: Vec<u64> = alike.map(|index| connected(target, index)).collect();
+            met.sort_unstable();
+            assert!(met.into_iter().eq(0..SUBPATHS), "{target}, {first}");
+        }
     }
 }
