@@ -117,8 +117,8 @@ fn a_room_far_from_the_origin_is_the_same_room() {
     }
 }
 
-/// Where no light was found nobody knows how much is missing: neither the point has an interval nor
-/// any figure of all points. The second place lies behind a closed wall.
+/// Where no light was found nobody knows how much is missing, unless there is a bound: neither the
+/// point has an interval nor any figure of all points. The second place lies behind a closed wall.
 #[test]
 fn a_dark_point_leaves_no_figure_certain() {
     let mut scene = room(DVec3::splat(2.0), diffuse(0.5));
@@ -133,7 +133,11 @@ fn a_dark_point_leaves_no_figure_certain() {
     scene.lights.push(point_light(DVec3::new(1.0, 1.0, 1.5), 100.0));
     let at = |z| (DVec3::new(0.7, 0.7, z), DVec3::NEG_Z);
     scene.sensors.push(points("places", &[at(1.8), at(0.8)]));
-    let settings = Settings { max_samples: Some(64), ..Settings::default() };
+    let bounded = Settings { max_samples: Some(64), ..Settings::default() };
+    let estimates = simulate(&scene, &bounded, &mut ());
+    let unseen = estimates.sensors[0].unseen.as_ref().expect("a bound");
+    assert!(estimates.point_intervals(0)[1].half_width == Some(0.0) && unseen.point_lx[1] > 0.0);
+    let settings = Settings { estimator: EstimatorKind::Path, ..bounded };
     let estimates = simulate(&scene, &settings, &mut ());
     assert_eq!((estimates.unresolved_points, estimates.tolerance_reached), (1, false));
     let [lit, dark] = estimates.point_intervals(0)[..] else { panic!("two points") };
