@@ -308,8 +308,11 @@ def test_pickled_results_are_the_same(result: quasilux.Result, tmp_path: Path) -
     assert pickle.loads(pickle.dumps(view)).name == "view"
     average = result["board"].average
     copy = pickle.loads(pickle.dumps(average))
-    assert math.isnan(copy.unseen_lx) and copy == average and hash(copy) == hash(average)
+    assert copy.unseen_lx > 0.0 and copy == average and hash(copy) == hash(average)
     assert copy != dataclasses.replace(average, unseen_lx=0.0) and copy != average.value
+    unbounded = dataclasses.replace(average, unseen_lx=math.nan)
+    copy = pickle.loads(pickle.dumps(unbounded))
+    assert math.isnan(copy.unseen_lx) and copy == unbounded and hash(copy) == hash(unbounded)
 
 
 def test_results_show_themselves(result: quasilux.Result) -> None:
@@ -320,6 +323,7 @@ def test_results_show_themselves(result: quasilux.Result) -> None:
         "sensor",
         "points",
         "average",
+        "unseen",
         "minimum",
         "maximum",
         "uniformity",

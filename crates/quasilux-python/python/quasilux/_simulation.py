@@ -115,7 +115,7 @@ def simulate(
 
     >>> result = simulate("examples/cube/cube.toml", progress=lambda p: p.is_checkpoint)
     >>> result.samples, result.stopped
-    (16, 'callback')
+    (1, 'callback')
     """
     from quasilux._result import Result
 
