@@ -101,11 +101,6 @@ impl<'a> AreaLuminaires<'a> {
         self.lights.iter().any(|light| light.importance_lx(position, Some(n)) != 0.0)
     }
 
-    /// About what one of them gives, see [`AreaLuminaire::importance_lx`].
-    pub(crate) fn importance_lx(&self, index: usize, position: DVec3, side: Option<DVec3>) -> f64 {
-        self.lights[index].importance_lx(position, side)
-    }
-
     /// Whether they are many, so that a choice among them takes coordinates of its own.
     pub(crate) fn are_many(&self) -> bool {
         self.choice.dimensions() > 1
@@ -135,8 +130,7 @@ impl<'a> AreaLuminaires<'a> {
         let u = if u_choice.is_some() { u } else { [chosen.u_remapped, u[1]] };
         let light_sample = self.lights[chosen.light].light_sample(vertex, u)?;
         let light = light_sample.light * (1.0 / chosen.pdf);
-        let illuminance_lx = self.importance_lx(chosen.light, place.position, place.side);
-        Some(LightSample { light, illuminance_lx, ..light_sample })
+        Some(LightSample { light, ..light_sample })
     }
 
     /// One of them, chosen with a probability that can be told, and a place on it.

@@ -25,13 +25,15 @@ impl<'l, 'a> AskedLuminaires<'l, 'a> {
         Self { lights, bounds: all.map(IntensityBound::of_luminaire).collect() }
     }
 
-    /// The most in lx that a place that is asked gives to a point.
-    pub(super) fn most_lx(&self, position: DVec3, n: DVec3) -> f64 {
+    /// The most in lx that a place that is asked gives anywhere on a disc of this radius, the
+    /// chance to ask a luminaire taken as in its centre.
+    pub(super) fn most_lx(&self, position: DVec3, n: DVec3, disc_m: f64) -> f64 {
         let asking = Asking { position, side: Some(n), own: None };
         let of_light = |(number, bound): (usize, &IntensityBound)| {
             let luminaire = self.lights.get(number)?;
             let probability = self.lights.probability(number, asking);
-            (probability > 0.0).then(|| most_of_one_lx(luminaire, bound, position, n) / probability)
+            let most_lx = || most_of_one_lx(luminaire, bound, [position, n], disc_m);
+            (probability > 0.0).then(|| most_lx() / probability)
         };
         self.bounds.iter().enumerate().filter_map(of_light).fold(0.0, f64::max)
     }
@@ -54,30 +56,37 @@ fn box_distance_m(luminaire: &Luminaire, position: DVec3) -> f64 {
     (local - local.clamp(-half_m, half_m)).length()
 }
 
-/// Without the choice of it.
-fn most_of_one_lx(luminaire: &Luminaire, bound: &IntensityBound, position: DVec3, n: DVec3) -> f64 {
+/// Without the choice of it, on a disc with this centre and normal.
+fn most_of_one_lx(
+    luminaire: &Luminaire,
+    bound: &IntensityBound,
+    [centre, n]: [DVec3; 2],
+    disc_m: f64,
+) -> f64 {
     let shape = &luminaire.shape;
-    let (half_m, radius_m) = (0.5 * shape.size_m(), shape.radius_m());
-    let near_m = box_distance_m(luminaire, position);
-    let way = position - luminaire.position;
+    let near_m = (box_distance_m(luminaire, centre) - disc_m).max(0.0);
+    let way = centre - luminaire.position;
     // Seen from its places, all of them moved to its centre.
+    let half_m = 0.5 * shape.size_m() + DVec3::splat(disc_m);
     let corners: [DVec3; 8] = array::from_fn(|corner| {
         let side = |axis: usize| if corner >> axis & 1 == 0 { half_m[axis] } else { -half_m[axis] };
-        position + luminaire.world_from_luminaire * DVec3::new(side(0), side(1), side(2))
+        centre + luminaire.world_from_luminaire * DVec3::new(side(0), side(1), side(2))
     });
     let far_m = corners.iter().map(|it| it.distance(luminaire.position)).fold(0.0, f64::max);
-    let distances_m = [near_m, far_m];
-    let most_cd =
-        bound.most_cd(&Hull { corners: &corners, centre: position, radius_m, distances_m });
-    let highest_m = (radius_m - n.dot(way)).max(0.0);
+    let (radius_m, distances_m) = (half_m.length(), [near_m, far_m]);
+    let most_cd = bound.most_cd(&Hull { corners: &corners, centre, radius_m, distances_m });
+    let highest_m = (shape.radius_m() - n.dot(way)).max(0.0);
     let lx = most_cd * (highest_m / near_m).min(1.0) / (near_m * near_m);
     if !shape.is_solid() {
         return lx;
     }
-    let least_m2 = DVec3::AXES.map(|axis| shape.projected_area_m2(axis));
-    let least_m2 = least_m2.into_iter().fold(f64::INFINITY, f64::min);
+    let along_axes_m2 = DVec3::AXES.map(|axis| shape.projected_area_m2(axis));
+    let least_m2 = along_axes_m2.into_iter().fold(f64::INFINITY, f64::min);
+    // Silhouettes change with the direction by no more than the sum of those along the axes.
+    let most_m2: f64 = along_axes_m2.iter().sum();
     let toward = luminaire.world_from_luminaire.transpose() * way.normalize_or_zero();
-    lx * (way.length() / near_m).max(1.0) * shape.projected_area_m2(toward) / least_m2
+    let seen_m2 = shape.projected_area_m2(toward) + most_m2 * disc_m / near_m;
+    lx * ((way.length() + disc_m) / near_m).max(1.0) * seen_m2.min(most_m2) / least_m2
 }
 
 #[cfg(test)]
@@ -134,11 +143,14 @@ mod tests {
                 if box_distance_m(&luminaire, position) == 0.0 {
                     continue;
                 }
-                let most_lx = most_of_one_lx(&luminaire, &bound, position, n);
+                let disc_m = 0.125 * number(index, 9) * box_distance_m(&luminaire, position);
+                let most_lx = most_of_one_lx(&luminaire, &bound, [position, n], disc_m);
                 let mut scene = room(DVec3::ONE, diffuse(0.0));
                 scene.lights.push(Light::Luminaire(luminaire.clone()));
                 let lights = AreaLuminaires::new(&scene, None);
+                let across = n.any_orthonormal_vector() * disc_m;
                 for place in 0..40 {
+                    let position = position + [across, -across, DVec3::ZERO][place as usize % 3];
                     let toward = luminaire.world_from_luminaire.transpose()
                         * (position - luminaire.position).normalize();
                     let u = [7, 8].map(|it| number(place, it));

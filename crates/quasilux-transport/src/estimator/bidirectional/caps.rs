@@ -86,7 +86,8 @@ impl Caps {
         let of_target = |receiver: &Receiver| {
             let joined_sr_m2 = if no_bounce { 0.0 } else { surfaces.joined(receiver) };
             let on_cell_lx = if receiver.is_cell() { surfaces.on_cell(receiver) } else { 0.0 };
-            let of_luminaires_lx = luminaires.most_lx(receiver.position, receiver.n);
+            let of_luminaires_lx =
+                luminaires.most_lx(receiver.position, receiver.n, receiver.straight_radius_m());
             let largest = |kind: &Kind, samples: f64, crossings: f64| {
                 let class = Class {
                     receiver,

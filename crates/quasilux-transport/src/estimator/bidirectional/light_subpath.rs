@@ -133,10 +133,9 @@ impl<S: Spectrum> LightSubpaths<S> {
         let (mut count, mut flux) = (0, FluxTally::default());
         for (number, sampler) in samplers.enumerate() {
             count = number + 1;
-            travelling.extend(LightSubpath::new(engine, number, sampler));
-            if let Some(subpath) = travelling.last().filter(|it| it.number == number) {
-                flux.emit(subpath.lm(), engine.flux_quantum);
-            }
+            let subpath = LightSubpath::new(engine, number, sampler);
+            subpath.iter().for_each(|it| flux.emit(it.lm(), engine.flux_quantum));
+            travelling.extend(subpath);
         }
         let mut found: Vec<FoundVertex<S>> = Vec::new();
         let (mut queries, mut hits, mut arrivals) =

@@ -172,12 +172,9 @@ impl Receiver {
                 let Around { free_m, radiance_scale } = Around::new(world, from, n);
                 let radius_m = largest_radius_m(world).min(free_m).max(world.hair_m());
                 let area_m2 = PI * radius_m * radius_m;
-                let luminaires = &context.lights.area_luminaires;
-                let nearest_m = emitting.distance_m(from.position(), n).min(nearest_luminaire_m(
-                    luminaires,
-                    from.position(),
-                    n,
-                ));
+                let (luminaires, place) = (&context.lights.area_luminaires, from.position());
+                let nearest_m = nearest_luminaire_m(luminaires, place, n);
+                let nearest_m = nearest_m.min(emitting.distance_m(place, n));
                 let near_m = (SHARE_OF_DISTANCE * nearest_m).max(world.hair_m());
                 let share = (near_m / radius_m).min(1.0);
                 Self {
@@ -268,6 +265,12 @@ impl Receiver {
     /// The area in m^2 on which photons count that come straight from a light.
     pub(super) fn straight_m2(&self, is_of_area: bool) -> f64 {
         self.area_m2 * self.straight_part(is_of_area)
+    }
+
+    /// The radius in m of the part of a disc on which photons count that come straight from lights
+    /// with an area; 0 of a cell.
+    pub(super) fn straight_radius_m(&self) -> f64 {
+        self.radius_m.map_or(0.0, |radius_m| radius_m * self.near_part.sqrt())
     }
 
     pub(super) fn is_cell(&self) -> bool {
