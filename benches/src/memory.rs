@@ -21,7 +21,7 @@ const TRIANGLES: f64 = (2 * CELLS * CELLS + 12) as f64;
 /// Estimator, elements, replicates and binary logarithm of the samples.
 const RUNS: [[&str; 4]; 3] = [
     ["path", "linear", "16", "4"],
-    ["selected", "linear", "16", "10"],
+    ["auto", "linear", "16", "10"],
     ["bidirectional-map", "linear", "16", "17"],
 ];
 

@@ -88,7 +88,7 @@ fn case() -> String {
         source = \"Voloboy, Dmitriev, Kopylov (2003), table 3; closed form: eight images, and 8 I \
         a / (1 - a) indirect\"\n\
         project = \"../scenes/octant.toml\"\n\
-        estimators = [\"path\", \"selected\", \"bidirectional\"]\n\
+        estimators = [\"path\", \"bidirectional\"]\n\
         rel_tol = { bidirectional = 0.01 }\n"
         .to_owned();
     for (point, direction) in DIRECTIONS.into_iter().enumerate() {

@@ -1,8 +1,7 @@
 //! cargo run --release -p quasilux-benches --bin convergence [WORD...]
 //!
 //! Words: `cube`, `office`, `spotlights`, `wall`; names of estimators; `2^N` indices; `random`;
-//! `bounces=N`; `element=METRES`; `first_shot=auto`, `on` or `off`; `connections=` the same, for
-//! `bidirectional`.
+//! `bounces=N`; `element=METRES`; `first_shot=auto`, `on` or `off`.
 //!
 //! How the error falls, and at what price. At each checkpoint: indices per replicate, rays,
 //! processor seconds so far, the relative error of one replicate (from the spread of 16, root mean
@@ -47,7 +46,7 @@ impl Request {
         let all = EstimatorKind::ALL.into_iter();
         let mut estimators: Vec<EstimatorKind> = all.filter(|kind| given(kind.name())).collect();
         if estimators.is_empty() {
-            estimators = vec![EstimatorKind::Path, EstimatorKind::Selected];
+            estimators = vec![EstimatorKind::Path, EstimatorKind::Auto];
         }
         let names = ["cube", "office", "spotlights", "wall"];
         let all = !names.iter().any(|name| given(name));
@@ -57,7 +56,6 @@ impl Request {
             max_bounces: number("bounces=").and_then(|word| word.parse().ok()),
             map_element_m: number("element=").and_then(|word| word.parse().ok()),
             first_shot: switch("first_shot"),
-            connections: switch("connections"),
             rel_tol: 0.0,
             max_samples: Some(1 << log_samples),
             ..Settings::default()
@@ -73,21 +71,17 @@ fn main() {
     for name in request.scenes {
         let scene = scene(name);
         for &estimator in &request.estimators {
-            let mut settings = Settings { estimator, ..request.settings.clone() };
+            let settings = Settings { estimator, ..request.settings.clone() };
             println!(
-                "{name}, {}, {}, first shot {}, connections {}",
+                "{name}, {}, {}, first shot {}",
                 estimator.name(),
                 settings.sequence.name(),
-                settings.first_shot.name(),
-                settings.connections.name()
+                settings.first_shot.name()
             );
             println!(
                 "{:>9}{:>14}{:>10}{:>14}{:>14}{:>8}{:>12}",
                 "indices", "rays", "seconds", "one, %", "mean, %", "slope", "efficiency"
             );
-            if estimator != EstimatorKind::Selected {
-                settings.connections = Switch::Auto;
-            }
             let mut table = Table { start: all_processors_seconds(), errors: Vec::new() };
             let _ = simulate(&scene, &settings, &mut table);
         }

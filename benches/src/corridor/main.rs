@@ -48,14 +48,13 @@ struct Contestant {
     importance: Switch,
 }
 
-const CONTESTANTS: [Contestant; 7] = [
+const CONTESTANTS: [Contestant; 6] = [
     contestant("path", EstimatorKind::Path, Switch::Off),
     contestant("photon", EstimatorKind::Photon, Switch::Off),
     contestant("photon-steered", EstimatorKind::Photon, Switch::Auto),
     contestant("map", EstimatorKind::BidirectionalMap, Switch::Off),
     contestant("map-steered", EstimatorKind::BidirectionalMap, Switch::Auto),
-    contestant("bidirectional", EstimatorKind::Selected, Switch::Off),
-    contestant("bidirectional-steered", EstimatorKind::Selected, Switch::Auto),
+    contestant("bidirectional", EstimatorKind::Bidirectional, Switch::Off),
 ];
 
 const fn contestant(

@@ -202,7 +202,6 @@ fn scene_and_estimates(sensors: Vec<(Sensor, Vec<Vec<f64>>)>) -> (Scene, Estimat
         direct_lx: rows[0].iter().map(|lx| 0.8 * lx).collect(),
         resolved: vec![true; rows[0].len()],
         missed: vec![false; rows[0].len()],
-        contradicted: vec![false; rows[0].len()],
         samples: vec![65_536; rows[0].len()],
         terms: Vec::new(),
         unseen: None,

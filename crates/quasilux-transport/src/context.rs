@@ -74,20 +74,6 @@ pub(crate) enum Stream {
     CausticPhotons,
     /// Pilot rays that plan where photons are split, numbered by what they start from.
     Survey(u64),
-    /// Photons that are connected to a group of sensor points.
-    ConnectedPhotons(u64),
-    /// Photons that are counted by the cell they land in.
-    CellPhotons,
-    /// Places in the cells of a group that photons are connected to, in dimensions that photons
-    /// leave alone.
-    ConnectionPlaces(u64),
-    /// Photons of the witness.
-    WitnessPhotons,
-    /// Places in cells that photons of the witness are joined to, in dimensions that photons leave
-    /// alone.
-    WitnessPlaces,
-    /// Paths of the witness from one sensor point, numbered through all sensors.
-    WitnessPaths(u64),
     /// Paths from one sensor point, numbered through all sensors.
     Paths(u64),
     /// The same of paths that know where light was reflected.
@@ -127,16 +113,10 @@ impl Stream {
             Self::WindowPilots => u64::MAX - 65,
             Self::CausticPhotons => u64::MAX,
             Self::Survey(kind) => u64::MAX - 1 - kind,
-            Self::ConnectedPhotons(group) => (1 << 62) + 2 + 2 * group,
-            Self::CellPhotons => u64::MAX - 64,
-            Self::ConnectionPlaces(group) => (1 << 62) + 3 + 2 * group,
-            Self::WitnessPhotons => u64::MAX - 66,
-            Self::WitnessPlaces => u64::MAX - 67,
             Self::PictureLights => u64::MAX - 68,
             Self::SharedSubpaths => u64::MAX - 70,
             Self::SubpathPilots => u64::MAX - 71,
             Self::Joins(point) => (7 << 60) + point,
-            Self::WitnessPaths(point) => (1 << 61) + point,
             Self::SunDisks(point) => (3 << 60) + point,
             Self::DaylightPaths(point) => (5 << 60) + point,
             Self::Meshes => u64::MAX - 69,
@@ -149,11 +129,6 @@ impl Stream {
     /// The sequence of its points in a run with this one.
     pub(crate) fn sequence(self, of_run: Sequence) -> Sequence {
         match (self, of_run) {
-            (Self::ConnectionPlaces(_) | Self::WitnessPlaces, Sequence::Independent) => {
-                Sequence::Independent
-            }
-            // Their dimensions are high ones, where other sequences are no good.
-            (Self::ConnectionPlaces(_) | Self::WitnessPlaces, _) => Sequence::Sobol,
             // A plan has its own number of photons.
             (
                 Self::PlanPhotons
@@ -161,12 +136,8 @@ impl Stream {
                 | Self::FirstShotPilots
                 | Self::WindowPilots
                 | Self::CausticPhotons
-                | Self::ConnectedPhotons(_)
-                | Self::CellPhotons
                 | Self::Survey(_)
-                | Self::WitnessPhotons
                 | Self::PictureLights
-                | Self::WitnessPaths(_)
                 | Self::DaylightPaths(_)
                 | Self::SunDisks(_)
                 | Self::Meshes
@@ -221,13 +192,6 @@ impl<'a, S: Spectrum> Context<'a, S> {
             purposes: PurposeRecorder::default(),
             settings,
         }
-    }
-
-    /// Whether paths that end on no map ask for the light of area lights in mirrors or through
-    /// panes.
-    pub(crate) fn shows_emitters_past_specular(&self) -> bool {
-        let is_past_panes = self.world.has_panes() && self.lights.emitters.is_some();
-        is_past_panes || self.images.show_emitters()
     }
 
     /// The question of `who` for the light that comes to a vertex by images.
@@ -300,10 +264,9 @@ mod tests {
     #[test]
     fn streams_have_numbers_of_their_own() {
         use Stream::{
-            CausticPhotons, CellPhotons, ConnectedPhotons, ConnectionPlaces, DaylightPaths,
-            EyeSubpaths, FirstShotPilots, Joins, MapPilots, Meshes, Paths, Photons, PictureLights,
-            PlanPhotons, SharedSubpaths, SubpathPilots, SunDisks, Survey, WindowPilots,
-            WitnessPaths, WitnessPhotons, WitnessPlaces,
+            CausticPhotons, DaylightPaths, EyeSubpaths, FirstShotPilots, Joins, MapPilots, Meshes,
+            Paths, Photons, PictureLights, PlanPhotons, SharedSubpaths, SubpathPilots, SunDisks,
+            Survey, WindowPilots,
         };
         let single =
             [Photons, PlanPhotons, MapPilots, FirstShotPilots, WindowPilots, CausticPhotons];
@@ -312,27 +275,9 @@ mod tests {
                 .map(move |pixel| Stream::Pixel { camera: camera as u32, pixel: pixel as u32 })
         });
         let numbered = numbers(1 << 40).flat_map(|number| {
-            [
-                ConnectedPhotons,
-                ConnectionPlaces,
-                Paths,
-                DaylightPaths,
-                SunDisks,
-                EyeSubpaths,
-                Joins,
-                WitnessPaths,
-            ]
-            .map(|stream| stream(number))
+            [Paths, DaylightPaths, SunDisks, EyeSubpaths, Joins].map(|stream| stream(number))
         });
-        let others = [
-            CellPhotons,
-            WitnessPhotons,
-            WitnessPlaces,
-            PictureLights,
-            Meshes,
-            SharedSubpaths,
-            SubpathPilots,
-        ];
+        let others = [PictureLights, Meshes, SharedSubpaths, SubpathPilots];
         let streams = single.into_iter().chain(others).chain(numbered);
         let streams = streams.chain(numbers(62).map(Survey)).chain(pixels);
         let mut ids: Vec<u64> = streams.map(Stream::id).collect();

@@ -27,11 +27,6 @@ impl Gain {
         self.0 *= albedo;
         bounces == 0 || self.0 <= MAX_GAIN
     }
-
-    /// What they left.
-    pub(crate) fn left(self) -> f64 {
-        self.0
-    }
 }
 
 /// Of some photons or paths that were cut; `values` are what is too low without them.

@@ -55,18 +55,11 @@ pub enum Purpose {
         /// The surface.
         surface: u32,
     },
-    /// Whether a path corrects the map that it ends on.
-    Correction {
-        /// The surface.
-        surface: u32,
-    },
     /// Whether light goes on from a surface, how and in which direction.
     Bounce {
         /// The surface.
         surface: u32,
     },
-    /// Where in cells of grids a photon is connected, and which connections are left to chance.
-    Connections,
 }
 
 /// A dimension and what it was drawn for, ordered by dimension.
@@ -120,11 +113,6 @@ impl<'a> PurposeRecorder<'a> {
         Self { ledger: Some(ledger) }
     }
 
-    /// Whether anything is recorded.
-    pub(crate) fn is_recording(self) -> bool {
-        self.ledger.is_some()
-    }
-
     /// Draws coordinates for a purpose.
     #[inline]
     pub(crate) fn draw<'p, T>(
@@ -148,9 +136,6 @@ impl fmt::Display for Purpose {
             Self::Emission => return f.write_str("light, and direction or place on it"),
             Self::EmissionOfArea => return f.write_str("direction from, or place on, an area"),
             Self::Cell => return f.write_str("place in the cell"),
-            Self::Connections => {
-                return f.write_str("chance of connections, and place in the sensor's cell");
-            }
             Self::FirstDirection => return f.write_str("direction from the sensor"),
             Self::AreaLight { surface } => ("place on an area light", surface),
             Self::AreaLightImage { surface } => ("image of an area light and place on it", surface),
@@ -159,7 +144,6 @@ impl fmt::Display for Purpose {
             Self::Sun { surface } => ("place on the sun", surface),
             Self::PointLike { surface } => ("choice of a light", surface),
             Self::Image { surface } => ("choice of images in mirrors", surface),
-            Self::Correction { surface } => ("correction of the map", surface),
             Self::Bounce { surface } => ("survival and direction", surface),
         };
         match surface {

@@ -18,10 +18,6 @@ pub enum EstimatorKind {
     /// counted, weighed so that no sample adds more than any technique alone would: what no sample
     /// met has a bound.
     Bidirectional,
-    /// Paths from the sensors beside photons that are connected to them, or paths that end on a
-    /// frozen illumination map, corrected so that its elements cause no bias, or paths alone: what
-    /// pilots find best.
-    Selected,
     /// The form of Voloboy, Dmitriev and Kopylov (2003): paths end on the map, whose finite
     /// elements leave a bias.
     BidirectionalMap,
@@ -29,20 +25,8 @@ pub enum EstimatorKind {
 
 impl EstimatorKind {
     /// All of them.
-    pub const ALL: [Self; 6] = [
-        Self::Auto,
-        Self::Photon,
-        Self::Path,
-        Self::Bidirectional,
-        Self::Selected,
-        Self::BidirectionalMap,
-    ];
-
-    /// Whether pilots select between paths alone, on a frozen map and beside connected photons.
-    #[must_use]
-    pub fn is_selected_by_pilots(self) -> bool {
-        self == Self::Selected
-    }
+    pub const ALL: [Self; 5] =
+        [Self::Auto, Self::Photon, Self::Path, Self::Bidirectional, Self::BidirectionalMap];
 
     /// Whether it bounds the light that no sample met.
     #[must_use]
@@ -58,7 +42,6 @@ impl EstimatorKind {
             Self::Photon => "photon",
             Self::Path => "path",
             Self::Bidirectional => "bidirectional",
-            Self::Selected => "selected",
             Self::BidirectionalMap => "bidirectional-map",
         }
     }
@@ -226,8 +209,7 @@ pub struct Settings {
     pub max_bounces: Option<u32>,
     /// How many terms of the Neumann series are listed, light of 0, 1, .. bounces, beside the rest;
     /// 0 lists none. An illumination map gets one layer for each but the first two, and one for the
-    /// rest: its memory grows so many times. One that is corrected gets one for each wanted bounce
-    /// but the last, if `max_bounces` is 16 or less and its elements are not too many.
+    /// rest: its memory grows so many times.
     pub list_terms: u32,
     /// Limit on the number of indices per replicate: photons, and paths for each sensor point. A
     /// pixel of a camera gets so many paths, or 16 without a limit.
@@ -256,8 +238,7 @@ pub struct Settings {
     pub map_photons: u32,
     /// Coordinates that a photon may have used when it lands on a map that paths end on, the
     /// balance of Voloboy, Dmitriev and Kopylov (2003): later events, which quasi-random points do
-    /// least for, are left out. [`EstimatorKind::Selected`] finds their light by its
-    /// correction, [`EstimatorKind::BidirectionalMap`] goes without; `None` leaves nothing out.
+    /// least for, are left out, with their light; `None` leaves nothing out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub map_dimensions: Option<u32>,
     /// How many plane mirrors, one after the other, images of lights are followed through; `None`
@@ -266,11 +247,6 @@ pub struct Settings {
     /// Whether photons that sensors count, and those of maps that grow, are split and ended where
     /// that helps the sensors; else they keep equal flux.
     pub importance: Switch,
-    /// Whether photons are connected to the sensors beside the paths of
-    /// [`EstimatorKind::Selected`]; with `Off` these end on a frozen map, which is corrected,
-    /// where two bounces or more are wanted. A first shot that is to be on, and `map_dimensions`,
-    /// leave `Auto` the map alone, and `importance` that is to be on the connected photons.
-    pub connections: Switch,
 }
 
 impl Settings {
@@ -278,20 +254,6 @@ impl Settings {
     #[must_use]
     pub fn has_tolerance(&self) -> bool {
         self.rel_tol > 0.0 || self.abs_tol_lx > 0.0
-    }
-
-    /// Whether [`EstimatorKind::Selected`] connects photons to the sensors, where that is
-    /// settled before a pilot: photons that are to leave lit places, or to be left out, are those
-    /// of maps; those that are to be guided are connected.
-    #[must_use]
-    pub fn connections(&self) -> Option<bool> {
-        let asks_for_map = self.first_shot == Switch::On || self.map_dimensions.is_some();
-        match self.connections {
-            Switch::On => Some(true),
-            Switch::Off => Some(false),
-            Switch::Auto if asks_for_map => Some(false),
-            Switch::Auto => (self.importance == Switch::On).then_some(true),
-        }
     }
 
     /// The half-width in lx that is enough for this value.
@@ -348,7 +310,6 @@ impl Default for Settings {
             map_dimensions: None,
             image_depth: None,
             importance: Switch::Auto,
-            connections: Switch::Auto,
         }
     }
 }
@@ -399,7 +360,6 @@ mod tests {
             map_element_m: Some(1.0 / 3.0),
             map_photons: 7,
             map_dimensions: Some(9),
-            connections: Switch::Off,
             ..Settings::default()
         };
         for settings in [settings, Settings::default()] {

@@ -257,7 +257,7 @@ mod tests {
             let path = format!("{root}/{name}");
             std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"))
         };
-        let documents = ["README.md", "docs/connections.md", "docs/speed.md", "CONTRIBUTING.md"];
+        let documents = ["README.md", "docs/speed.md", "CONTRIBUTING.md"];
         let examples = ["cluster", "cornell", "corridor", "cube", "diffuser", "office"];
         let examples = examples.map(|name| format!("examples/{name}/README.md"));
         let own = "crates/quasilux/README.md".to_owned();

@@ -33,7 +33,6 @@ impl<'a> Forecast<'a> {
             EstimatorKind::Auto
             | EstimatorKind::Photon
             | EstimatorKind::Bidirectional
-            | EstimatorKind::Selected
             | EstimatorKind::BidirectionalMap => PHOTON_THREAD_BYTES,
         };
         let program_bytes = PROGRAM_BYTES + self.threads as u64 * thread_bytes;

@@ -20,7 +20,7 @@ pub(crate) fn on_command_line<T: Copy>(
     if let Some(value) = find(name, known, name_of) {
         return Ok(value);
     }
-    if let Some(reason) = lacks_points(name) {
+    if let Some(reason) = why_unknown(name) {
         return Err(CliError::new(format!("{what}: {reason}")));
     }
     let list: Vec<&str> = known.iter().copied().map(name_of).collect();
@@ -48,7 +48,7 @@ pub(crate) fn take_from_project<T: Copy>(
         *setting = value;
         return Ok(());
     }
-    if let Some(reason) = lacks_points(&name.value) {
+    if let Some(reason) = why_unknown(&name.value) {
         return Err(section.error_at(name, format!("{what}: {reason}")));
     }
     let list: Vec<&str> = known.iter().copied().map(name_of).collect();
@@ -57,6 +57,13 @@ pub(crate) fn take_from_project<T: Copy>(
 
 fn find<T: Copy>(name: &str, known: &[T], name_of: fn(T) -> &'static str) -> Option<T> {
     known.iter().copied().find(|value| name_of(*value) == name)
+}
+
+/// Why a name that users may know is not in a list.
+fn why_unknown(name: &str) -> Option<String> {
+    let is_gone = name == "selected";
+    let gone = is_gone.then(|| "\"selected\" is gone: \"auto\" does what it chose from".to_owned());
+    gone.or_else(|| lacks_points(name))
 }
 
 /// Why a known name is not in a list of sequences.

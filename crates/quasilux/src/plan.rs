@@ -11,7 +11,7 @@ use crate::exit::CliError;
 use crate::input;
 use crate::project::{Project, kept_settings};
 use quasilux_report::json;
-use quasilux_scene::project::{RENAMED_KEYS, RenamedKey};
+use quasilux_scene::project::{REFUSED_KEYS, RefusedKey};
 use quasilux_transport::{Decisions, Settings};
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
@@ -179,9 +179,9 @@ impl Plan {
 /// Why bytes are not a plan: a setting that has another name now, or what the parser found.
 fn why_no_plan(bytes: &[u8], error: &serde_json::Error) -> String {
     let document: serde_json::Value = serde_json::from_slice(bytes).unwrap_or_default();
-    let renamed = RENAMED_KEYS.iter().find(|key| document["settings"].get(key.old).is_some());
-    match renamed {
-        Some(RenamedKey { old, new }) => format!("the setting \"{old}\" is \"{new}\" now"),
+    let refused = REFUSED_KEYS.iter().find(|key| document["settings"].get(key.old).is_some());
+    match refused {
+        Some(RefusedKey { old, now }) => format!("the setting \"{old}\" {now}"),
         None => format!("is no plan: {error}"),
     }
 }

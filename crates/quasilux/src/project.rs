@@ -174,7 +174,6 @@ fn names_in_section(
     let take_switch =
         |to: &mut Switch, name, what| take(to, from, name, what, &Switch::ALL, Switch::name);
     take_switch(&mut to.importance, &from.importance, "importance")?;
-    take_switch(&mut to.connections, &from.connections, "connections")?;
     take_switch(&mut to.first_shot, &from.first_shot, "first shot")
 }
 

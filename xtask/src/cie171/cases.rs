@@ -66,7 +66,7 @@ pub(super) fn cases() -> Vec<Case> {
 }
 
 /// Estimators of sensors at points, which paths find, and of means, which photons find as well.
-const OF_POINTS: &[&str] = &["path", "selected", "bidirectional"];
+const OF_POINTS: &[&str] = &["path", "bidirectional"];
 const OF_MEANS: &[&str] = &["path", "photon"];
 const CONTOUR_INTEGRAL: &str = "closed form: contour integral of Lambert (1760)";
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from quasilux._result import Result
 
     Callback = Callable[[Progress], object]
-    Estimator = Literal["auto", "photon", "path", "bidirectional", "selected", "bidirectional-map"]
+    Estimator = Literal["auto", "photon", "path", "bidirectional", "bidirectional-map"]
 
 
 def simulate(

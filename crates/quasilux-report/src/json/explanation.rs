@@ -2,10 +2,9 @@
 //!
 //! Coordinates count from 0; a block without a `last` one has all that follow. Shares are of the
 //! variance of one sample, `alone` without what hangs on other blocks too, `total` with it.
-//! `beside` has the same of photons that stand beside paths, so many for each path.
 
 use quasilux_transport::Explanation;
-use quasilux_transport::explain::{Beside, Block, Gain, SampleKind, Share};
+use quasilux_transport::explain::{Block, Gain, SampleKind, Share};
 use serde::Serialize;
 
 #[derive(Serialize)]
@@ -21,15 +20,6 @@ pub(super) struct ExplanationEntry<'a> {
     truncation_dimension: Option<u32>,
     blocks: Vec<BlockEntry>,
     gain: Option<GainEntry>,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    beside: Vec<BesideEntry<'a>>,
-}
-
-#[derive(Serialize)]
-struct BesideEntry<'a> {
-    for_each_path: u64,
-    #[serde(flatten)]
-    explanation: ExplanationEntry<'a>,
 }
 
 #[derive(Serialize)]
@@ -72,9 +62,6 @@ impl<'a> ExplanationEntry<'a> {
                 SampleKind::Photons => "photons",
                 SampleKind::Paths => "paths",
                 SampleKind::PathsOnMap => "paths that end on a map",
-                SampleKind::PathsBesidePhotons => "paths beside connected photons",
-                SampleKind::CountedPhotons => "photons counted by cells, beside paths",
-                SampleKind::ConnectedPhotons => "photons connected to sensors, beside paths",
             },
             targets: explanation.targets,
             samples: explanation.samples,
@@ -86,14 +73,7 @@ impl<'a> ExplanationEntry<'a> {
             truncation_dimension: explanation.truncation_dimension,
             blocks: explanation.blocks.iter().map(BlockEntry::new).collect(),
             gain: explanation.gain.map(GainEntry::new),
-            beside: explanation.beside.iter().map(BesideEntry::new).collect(),
         }
-    }
-}
-
-impl<'a> BesideEntry<'a> {
-    fn new(Beside { for_each_path, explanation }: &'a Beside) -> Self {
-        Self { for_each_path: *for_each_path, explanation: ExplanationEntry::new(explanation) }
     }
 }
 

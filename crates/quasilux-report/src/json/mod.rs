@@ -16,7 +16,7 @@
 //! sample met, with `unseen_confidence`, `merged_lx`, the part of the value that is known as a mean
 //! over a disc of `disc_radius_m` around the point; `unseen_tol` is a share or "off", and
 //! `cannot_see` has the classes of light paths that the estimator cannot make. Then `decisions`,
-//! what pilots made of the settings (what they `selected` and why, photons connected for each path
+//! what pilots made of the settings (photons connected for each path
 //! (`connected_photons`), whether photons follow `importance` and leave lit places, sides of
 //! elements of the map that paths end on, photons for each path that look for light which paths
 //! cannot find; `null` where there are none), `prediction` (see `prediction.rs`), `flux_cut_lm`,
@@ -48,7 +48,7 @@ use explanation::ExplanationEntry;
 use layout::Layout;
 use prediction::PredictionEntry;
 use quasilux_transport::unseen::UNSEEN_CONFIDENCE;
-use quasilux_transport::{Decisions, DimensionHistogram, Dimensions, EstimatorKind, Settings};
+use quasilux_transport::{Decisions, DimensionHistogram, Dimensions, Settings};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 use terms::TermEntry;
@@ -181,9 +181,6 @@ struct EarlierEntry {
 /// What `auto` came to, as in a plan.
 #[derive(Serialize)]
 struct DecisionsEntry {
-    /// What pilots selected, and why, in words.
-    selected: &'static str,
-    /// Sensor points that bidirectional paths took over from it.
     connected_photons: Option<u64>,
     importance: bool,
     first_shot: bool,
@@ -218,7 +215,7 @@ impl<'a> Document<'a> {
             sensors: report.sensors.iter().map(|s| SensorEntry::new(s, report)).collect(),
             cameras: report.cameras.iter().map(CameraEntry::new).collect(),
             outside: report.outside.map(OutsideEntry::new),
-            run: RunEntry::new(&report.run, !report.sensors.is_empty()),
+            run: RunEntry::new(&report.run),
             explain: report.explanation.as_ref().map(ExplanationEntry::new),
             findings: report.findings.iter().map(FindingEntry::new).collect(),
             warnings: &report.warnings,
@@ -240,12 +237,7 @@ impl<'a> SensorEntry<'a> {
 }
 
 impl DecisionsEntry {
-    fn new(run: &Run, has_sensors: bool) -> Self {
-        let decisions = &run.decisions;
-        let selected = match has_sensors {
-            true => selected(run.settings.estimator, decisions),
-            false => "nothing: there are cameras alone, whose pictures are made by plain paths",
-        };
+    fn new(decisions: &Decisions) -> Self {
         let Decisions {
             connected_photons,
             uses_importance: importance,
@@ -254,28 +246,7 @@ impl DecisionsEntry {
             caustic_photons,
             digest: _,
         } = *decisions;
-        Self { selected, connected_photons, importance, first_shot, map_elements, caustic_photons }
-    }
-}
-
-/// What pilots selected, and why.
-fn selected(estimator: EstimatorKind, decisions: &Decisions) -> &'static str {
-    if !estimator.is_selected_by_pilots() {
-        return "nothing: the settings name the estimator";
-    }
-    match decisions {
-        Decisions { connected_photons: Some(_), uses_importance: true, .. } => {
-            "photons connected to the sensors and guided: the fewest rays by pilots, or light that \
-             paths missed"
-        }
-        Decisions { connected_photons: Some(_), .. } => {
-            "photons connected to the sensors: the fewest rays by pilots, or light that paths \
-             missed"
-        }
-        Decisions { map_elements: Some(_), .. } => {
-            "paths that end on a corrected map: the fewest rays by pilots"
-        }
-        _ => "paths alone: the fewest rays by pilots",
+        Self { connected_photons, importance, first_shot, map_elements, caustic_photons }
     }
 }
 
@@ -335,7 +306,7 @@ impl SummaryEntry {
 }
 
 impl<'a> RunEntry<'a> {
-    fn new(run: &'a Run, has_sensors: bool) -> Self {
+    fn new(run: &'a Run) -> Self {
         Self {
             version: &run.version,
             build: &run.build,
@@ -356,7 +327,7 @@ impl<'a> RunEntry<'a> {
             unseen_confidence: UNSEEN_CONFIDENCE,
             cannot_see: &run.cannot_see,
             prediction: PredictionEntry::new(run),
-            decisions: DecisionsEntry::new(run, has_sensors),
+            decisions: DecisionsEntry::new(&run.decisions),
             mean_dimension: MeanDimensionEntry {
                 photon: mean(&run.dimensions.photon),
                 path: mean(&run.dimensions.path),

@@ -3,7 +3,7 @@
 use super::{Column, Emphasis, Style, lines};
 use crate::number::{brief, count};
 use quasilux_transport::Explanation;
-use quasilux_transport::explain::{Beside, Block, Gain, SampleKind, Share};
+use quasilux_transport::explain::{Block, Gain, SampleKind, Share};
 use std::fmt::Write;
 
 /// A smaller factor between errors makes no difference to speak of.
@@ -11,22 +11,9 @@ const NO_GAIN: f64 = 1.1;
 /// Powers of the step below this are nearer to jumps than to slopes.
 const JUMPS: f64 = 1.5;
 
-/// A table of the blocks, and sentences on the gain of quasi-random points; the same of photons
-/// beside paths.
+/// A table of the blocks, and sentences on the gain of quasi-random points.
 #[must_use]
 pub fn explanation(explanation: &Explanation, style: Style) -> String {
-    let mut text = part(explanation, style);
-    for Beside { explanation, .. } in &explanation.beside {
-        text += &format!("\n{}", part(explanation, style));
-    }
-    if !explanation.beside.is_empty() {
-        text += &format!("\n{}\n", style.paint(Emphasis::Strong, &together(explanation)));
-    }
-    text
-}
-
-/// One kind of samples.
-fn part(explanation: &Explanation, style: Style) -> String {
     let blocks = || explanation.blocks.iter();
     let percent = |share: f64| format!("{} %", brief(100.0 * share, 3));
     let share = |share: Option<Share>| match share {
@@ -69,24 +56,11 @@ fn sampled(explanation: &Explanation) -> String {
         SampleKind::PathsOnMap => {
             (format!("{samples} paths to one map from each of {targets} points"), "path")
         }
-        SampleKind::PathsBesidePhotons => {
-            (format!("{samples} paths beside photons from each of {targets} points"), "path")
-        }
-        SampleKind::CountedPhotons => {
-            (format!("{samples} photons counted by cells that {targets} points see"), "photon")
-        }
-        SampleKind::ConnectedPhotons => {
-            (format!("{samples} photons connected to {targets} points"), "photon")
-        }
-    };
-    let whole = match walk {
-        SampleKind::CountedPhotons | SampleKind::ConnectedPhotons => "all the light there",
-        _ => "the mean",
     };
     format!(
         "Explained by {pilot} ({} rays beside the run): a {one} takes {} coordinates on average, \
          half of them {} or fewer, nine of ten {} and all {}; what it finds deviates by {} % of \
-         {whole}.",
+         the mean.",
         count(*rays),
         brief(dimensions.mean(), 3),
         dimensions.quantile(0.5),
@@ -140,38 +114,6 @@ fn sentences(explanation: &Explanation) -> Vec<String> {
     sentences
 }
 
-/// What a path and the photons beside it each leave open, and what the sequence takes of that.
-fn together(explanation: &Explanation) -> String {
-    let percent = |deviation: f64| format!("{} %", brief(100.0 * deviation, 2));
-    let photons = explanation.beside.iter().map(|Beside { for_each_path, explanation }| {
-        let are = match explanation.walk {
-            SampleKind::CountedPhotons => "counted",
-            _ => "connected",
-        };
-        let photons = if *for_each_path == 1 { "photon" } else { "photons" };
-        let deviation = explanation.relative_deviation / (*for_each_path as f64).sqrt();
-        format!("its {} {are} {photons} by {}", count(*for_each_path), percent(deviation))
-    });
-    let photons: Vec<String> = photons.collect();
-    let mut text = format!(
-        "With random points a path would deviate by {} of the mean, {}",
-        percent(explanation.relative_deviation),
-        photons.join(", "),
-    );
-    let parts = explanation.beside.iter().map(|beside| &beside.explanation);
-    let gains = std::iter::once(explanation).chain(parts).map(|part| part.gain);
-    let factors: Vec<Option<f64>> = gains.map(|gain| gain.map(|gain| gain.factor)).collect();
-    if factors.iter().any(Option::is_some) {
-        let factor = |factor: &Option<f64>| {
-            factor.map_or_else(|| "nothing".to_owned(), |factor| format!("{factor:.1}"))
-        };
-        let factors: Vec<String> = factors.iter().map(factor).collect();
-        write!(text, "; the sequence divides these by {}", factors.join(", "))
-            .expect("strings grow");
-    }
-    text + "."
-}
-
 fn gain_text(gain: &Gain) -> String {
     let Gain { samples, factor, standard_error, exponent, .. } = gain;
     let help = if *factor < NO_GAIN { "does not help" } else { "helps" };
@@ -223,7 +165,6 @@ mod tests {
                 standard_error: 0.3,
                 exponent: 0.7,
             }),
-            beside: Vec::new(),
         }
     }
 
@@ -239,23 +180,6 @@ mod tests {
             " 70.0 ± 1.0 %",
             "3.0 ± 0.3 times as large, so that they would need 9 times the samples",
             "jumps: 70 % of the variance hang on \"direction from the sensor\".",
-        ] {
-            assert!(text.contains(words), "no {words} in\n{text}");
-        }
-    }
-
-    #[test]
-    fn photons_beside_paths_are_told() {
-        let counted = Explanation { walk: SampleKind::CountedPhotons, ..example() };
-        let beside = vec![Beside { for_each_path: 64, explanation: counted }];
-        let paths = Explanation { walk: SampleKind::PathsBesidePhotons, beside, ..example() };
-        let text = explanation(&paths, Style::Plain);
-        for words in [
-            "1 024 paths beside photons from each of 8 points",
-            "1 024 photons counted by cells that 8 points see",
-            "a path would deviate by 80 % of the mean, its 64 counted photons by 10 %; the \
-             sequence divides these by 3.0, 3.0.",
-            "what it finds deviates by 80 % of all the light there",
         ] {
             assert!(text.contains(words), "no {words} in\n{text}");
         }

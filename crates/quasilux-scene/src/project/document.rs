@@ -3,7 +3,7 @@
 //! Sections of the project file are read through [`Section`] and [`Value`]: each question says
 //! what is expected, so that each refusal can.
 
-use super::renamed::RenamedKey;
+use super::renamed::RefusedKey;
 use crate::{LoadError, Spanned};
 use glam::DVec3;
 use quasilux_text::Position;
@@ -143,11 +143,11 @@ impl<'a> Section<'a> {
         Ok(())
     }
 
-    /// Refuses the old names of renamed keys, with the new ones.
-    pub(super) fn refuse_renamed(&self, renamed: &[RenamedKey]) -> Result<(), LoadError> {
+    /// Refuses keys that there are no more, and says what became of them.
+    pub(super) fn refuse(&self, refused: &[RefusedKey]) -> Result<(), LoadError> {
         for Entry { key, .. } in self.entries() {
-            if let Some(RenamedKey { old, new }) = renamed.iter().find(|it| it.old == key.value) {
-                let message = format!("the key \"{old}\" in {} is \"{new}\" now", self.name);
+            if let Some(RefusedKey { old, now }) = refused.iter().find(|it| it.old == key.value) {
+                let message = format!("the key \"{old}\" in {} {now}", self.name);
                 return Err(LoadError::new(self.source.file, Some(key.place), message));
             }
         }

@@ -21,7 +21,7 @@ mod sensors;
 mod simulation;
 mod units;
 
-pub use renamed::{RENAMED_KEYS, RenamedKey};
+pub use renamed::{REFUSED_KEYS, RefusedKey};
 pub use simulation::{SimulationSection, doubt_of_tolerance};
 pub use units::LengthUnit;
 

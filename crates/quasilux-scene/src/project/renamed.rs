@@ -1,17 +1,21 @@
-//! Keys of `[simulation]` that were renamed: the old names are refused, and messages give the new
-//! ones.
+//! Keys of `[simulation]` that were renamed or are gone: they are refused, and messages say what
+//! replaces them.
 
-/// A key of `[simulation]`, of plans and of checkpoints that was renamed.
+/// A key of `[simulation]`, of plans and of checkpoints that there is no more.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct RenamedKey {
+pub struct RefusedKey {
     /// The name that is refused.
     pub old: &'static str,
-    /// The name that replaces it.
-    pub new: &'static str,
+    /// What became of it, as messages go on after the name.
+    pub now: &'static str,
 }
 
-/// All renamed keys.
-pub const RENAMED_KEYS: [RenamedKey; 2] = [
-    RenamedKey { old: "steering", new: "importance" },
-    RenamedKey { old: "joining", new: "connections" },
+const ALWAYS_CONNECTED: &str =
+    "is gone: \"auto\" connects paths to light subpaths wherever that helps";
+
+/// All of them.
+pub const REFUSED_KEYS: [RefusedKey; 3] = [
+    RefusedKey { old: "steering", now: "is \"importance\" now" },
+    RefusedKey { old: "joining", now: ALWAYS_CONNECTED },
+    RefusedKey { old: "connections", now: ALWAYS_CONNECTED },
 ];

@@ -4,11 +4,11 @@
 //! refuse a name with the line that gives it.
 
 use super::document::{Section, Value};
-use super::renamed::RENAMED_KEYS;
+use super::renamed::REFUSED_KEYS;
 use crate::{LoadError, Spanned};
 use std::ops::RangeInclusive;
 
-const KEYS: [&str; 22] = [
+const KEYS: [&str; 21] = [
     "estimator",
     "sequence",
     "randomization",
@@ -30,7 +30,6 @@ const KEYS: [&str; 22] = [
     "map_dimensions",
     "image_depth",
     "importance",
-    "connections",
 ];
 
 /// Larger tolerances are written with a percent sign.
@@ -95,8 +94,6 @@ pub struct SimulationSection {
     pub image_depth: Option<Spanned<u32>>,
     /// Name of when photons follow the importance of the sensors.
     pub importance: Option<Spanned<String>>,
-    /// Name of when photons are connected to the sensors beside paths.
-    pub connections: Option<Spanned<String>>,
 }
 
 impl SimulationSection {
@@ -121,7 +118,7 @@ pub(super) fn read(file: &str, root: &Section<'_>) -> Result<SimulationSection, 
     let Some(section) = root.table("simulation")? else {
         return Ok(SimulationSection { file, ..SimulationSection::default() });
     };
-    section.refuse_renamed(&RENAMED_KEYS)?;
+    section.refuse(&REFUSED_KEYS)?;
     section.only(&KEYS, &[])?;
     let name = |key| spanned(&section, key, |value| Ok(value.string("a name")?.to_owned()));
     let number = |key, expected: &str, accept: fn(f64) -> bool| {
@@ -158,7 +155,6 @@ pub(super) fn read(file: &str, root: &Section<'_>) -> Result<SimulationSection, 
         map_dimensions: up_to("map_dimensions", 1..=u64::from(u32::MAX))?,
         image_depth: up_to("image_depth", 0..=MAX_IMAGE_DEPTH)?,
         importance: name("importance")?,
-        connections: name("connections")?,
     })
 }
 

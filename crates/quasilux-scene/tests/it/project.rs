@@ -150,7 +150,7 @@ fn simulation_values_keep_their_places() {
            seed = 0xff\nmax_bounces = \"unlimited\"\nlist_terms = 4\nmap_element_m = 1\n\
            map_elements = 5\nmap_adaptive = false\nmap_reconstruction = \"linear\"\n\
            map_photons = 9\nmap_dimensions = 7\nimage_depth = 3\n\
-           importance = \"on\"\nconnections = \"off\"\nfirst_shot = \"off\"\n\
+           importance = \"on\"\nfirst_shot = \"off\"\n\
            abs_tol = 0.5\nunseen_tol = 0.1\ntolerance_on = \"summary\"\n";
     let simulation = load_text(&project, &MapFiles::room()).unwrap().simulation;
     assert_eq!(simulation.rel_tol.as_ref().map(|v| (v.value, v.place.line)), Some((0.02, 18)));
@@ -167,7 +167,6 @@ fn simulation_values_keep_their_places() {
     assert_eq!(simulation.map_dimensions.as_ref().map(|v| v.value), Some(7));
     assert_eq!(simulation.image_depth.as_ref().map(|v| v.value), Some(3));
     assert_eq!(simulation.importance.as_ref().map(|v| &*v.value), Some("on"));
-    assert_eq!(simulation.connections.as_ref().map(|v| &*v.value), Some("off"));
     assert_eq!(simulation.abs_tol_lx.as_ref().map(|v| v.value), Some(0.5));
     assert_eq!(simulation.unseen_tol.as_ref().map(|v| v.value), Some(Some(0.1)));
     assert_eq!(simulation.tolerance_on.as_ref().map(|v| &*v.value), Some("summary"));

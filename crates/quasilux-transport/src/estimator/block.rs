@@ -7,14 +7,8 @@ use serde::{Deserialize, Serialize};
 pub(crate) enum BlockFrame {
     /// Paths of all growing targets and replicates, put in one row.
     Paths { progress: PathProgress },
-    /// Photons that are connected to targets, by the indices that they belong to.
-    ConnectedPhotons { progress: PathProgress },
     /// Photons that sensors count, by index.
     CountedPhotons,
-    /// Photons of the witness, by index.
-    WitnessPhotons,
-    /// Paths of the witness, by index.
-    WitnessPaths,
     /// Units of bidirectional paths.
     Bidirectional { progress: PathProgress },
 }

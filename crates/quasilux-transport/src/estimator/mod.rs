@@ -1,15 +1,10 @@
-//! Estimators of sensor values, and the selection between them by pilots.
+//! Estimators of sensor values.
 
 mod bidirectional;
 pub(crate) mod block;
-pub(crate) mod connection;
-pub(crate) mod control_variate;
 pub(crate) mod exact;
 pub(crate) mod path_estimator;
 pub(crate) mod photon_estimator;
-pub(crate) mod pilot;
-pub(crate) mod selection;
-pub(crate) mod witness;
 
 use crate::codec::{Reader, StateError, Writer};
 use crate::context::Context;
@@ -80,7 +75,7 @@ pub(crate) trait Estimator {
     fn first_checkpoint(&self) -> u64;
 }
 
-/// The estimator of the settings, its surveys and pilots done.
+/// The estimator of the settings, its plan made.
 pub(crate) fn new_estimator<'a, S: Spectrum>(
     context: &'a Context<'a, S>,
     scene: &'a Scene,
@@ -92,7 +87,7 @@ pub(crate) fn new_estimator<'a, S: Spectrum>(
         EstimatorKind::Auto | EstimatorKind::Bidirectional => {
             Box::new(BidirectionalEstimator::new(context, scene, settings))
         }
-        EstimatorKind::Path | EstimatorKind::Selected | EstimatorKind::BidirectionalMap => {
+        EstimatorKind::Path | EstimatorKind::BidirectionalMap => {
             Box::new(PathEstimator::new(context, scene, settings, watch))
         }
     }

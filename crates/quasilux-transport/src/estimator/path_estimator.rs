@@ -1,5 +1,4 @@
-//! Path tracing estimator of all sensors (Kajiya 1986), alone, on illumination maps or beside light
-//! vertex connections.
+//! Path tracing estimator of all sensors (Kajiya 1986), alone or on illumination maps.
 
 mod advance;
 mod blocks;
@@ -13,14 +12,9 @@ use crate::context::{Context, Stream};
 use crate::cutoff;
 use crate::estimator::Estimator;
 use crate::estimator::block::BlockFrame;
-use crate::estimator::connection::LightVertexConnections;
 use crate::estimator::exact::{Exact, exact};
-use crate::estimator::pilot::Request;
-use crate::estimator::selection::{Decision, decide};
-use crate::path::end::{EndPilots, PathEnd, Prepared};
-use crate::path::lobes;
-use crate::path::sections::{PathScores, PathSums, Piece, Section, WorkCounts, trace_sections};
-use crate::path::specular_hits::{self, SpecularHits};
+use crate::path::end::{PathEnd, Prepared};
+use crate::path::sections::{PathSums, Piece, Section, WorkCounts, trace_sections};
 use crate::path::wave::PathWave;
 use crate::photon::caustics::CausticMap;
 use crate::photon::counts::PhotonCounts;
@@ -28,6 +22,7 @@ use crate::settings::Settings;
 use crate::spectrum::Spectrum;
 use crate::stats::decisions::Decisions;
 use crate::stats::estimates::{Dimensions, Estimates, SensorEstimates, TermEstimates};
+use crate::stats::scores::Scores;
 use crate::stats::tally::{Quantum, Sum};
 use crate::stats::targets::{Target, by_sensor, targets};
 use crate::stats::watch::Watch;
@@ -50,14 +45,12 @@ pub(crate) struct PathEstimator<'a, S> {
     exact: Vec<Exact>,
     end: PathEnd<S>,
     caustics: Option<CausticMap<S>>,
-    /// Photons that find a part of the light.
-    light_vertices: Option<LightVertexConnections>,
     replicates: u32,
     quantum: Quantum,
     /// Of target t in replicate r at `t * replicates + r`.
     sums: Vec<PathSums>,
     /// Of each target.
-    scores: Vec<PathScores>,
+    scores: Vec<Scores>,
     /// The first index.
     first: u64,
     /// Indices of the last checkpoint.
@@ -81,7 +74,6 @@ pub(crate) struct PathEstimator<'a, S> {
     invalid_points: u64,
     /// Targets to which light that is sampled may come straight.
     samples_direct: Vec<bool>,
-    specular_hits: SpecularHits,
     /// What each target showed before the maps last changed.
     last_lx: Vec<Option<f64>>,
 }
@@ -94,7 +86,7 @@ struct Costs {
 }
 
 impl<'a, S: Spectrum> PathEstimator<'a, S> {
-    /// Paths as the settings say, alone or with what pilots select for them.
+    /// Paths as the settings say, alone or on a map.
     pub(crate) fn new(
         context: &'a Context<'a, S>,
         scene: &'a Scene,
@@ -113,25 +105,19 @@ impl<'a, S: Spectrum> PathEstimator<'a, S> {
         }
         let samples_direct = targets.iter().map(|target| samples_direct(context, target)).collect();
         let quantum = Quantum::for_reference(context.lights.reference_lx(&context.world));
-        let request = Request { settings, replicates, targets: &targets, exact: &exact, quantum };
-        let Decision { light_vertices, frozen, photons, rays } = decide(context, &request, watch);
-        let pilots = EndPilots { frozen, photons };
         let Prepared { end, counts: photons } =
-            PathEnd::prepare(context, settings, &targets, pilots, watch);
-        work.rays += rays;
-        let most_unasked = end.most_unasked(context);
+            PathEnd::prepare(context, settings, &targets, watch);
         Self {
             context,
             scene,
             caustics: CausticMap::new(context, settings, &targets),
             exact,
             end,
-            light_vertices,
             replicates,
             last_lx: vec![None; targets.len()],
             quantum,
             sums: vec![PathSums::default(); targets.len() * replicates as usize],
-            scores: vec![PathScores::default(); targets.len()],
+            scores: vec![Scores::default(); targets.len()],
             growing: (0..targets.len()).collect(),
             ends: vec![None; targets.len()],
             targets,
@@ -144,7 +130,6 @@ impl<'a, S: Spectrum> PathEstimator<'a, S> {
             contribution: Costs::default(),
             invalid_points,
             samples_direct,
-            specular_hits: SpecularHits::new(scene, &context.world, most_unasked),
         }
     }
 
@@ -176,12 +161,8 @@ impl<'a, S: Spectrum> PathEstimator<'a, S> {
             number: number as usize,
             target: self.targets[target],
             points: self.context.points(replicate, Stream::Paths(target as u64)),
-            rest: self.end.rest(self.context, replicate, target),
+            map_end: self.end.map_end(self.context, replicate),
             caustics: self.caustics.as_ref().and_then(|caustics| caustics.map(replicate)),
-            partition: self
-                .light_vertices
-                .as_ref()
-                .map(|light_vertices| &light_vertices.connection.partition),
             indices,
         }
     }
@@ -201,9 +182,6 @@ impl<S: Spectrum> PathEstimator<'_, S> {
         if let Some(caustics) = &mut self.caustics {
             caustics.freeze_converged(&self.ends);
         }
-        if let Some(light_vertices) = &mut self.light_vertices {
-            light_vertices.freeze_converged(&self.ends);
-        }
     }
 
     /// Indices that a target has.
@@ -216,13 +194,6 @@ impl<S: Spectrum> PathEstimator<'_, S> {
         self.quantum.value(sum) / self.samples_of(target) as f64
     }
 
-    /// What photons gave to a target in one replicate.
-    fn connected_lx(&self, replicate: usize, target: usize) -> f64 {
-        self.light_vertices
-            .as_ref()
-            .map_or(0.0, |light_vertices| light_vertices.lx(replicate, target))
-    }
-
     /// The terms of the Neumann series that are listed, and the rest.
     fn terms(&self) -> Vec<TermEstimates> {
         let (listed, replicates) = (self.context.listed_terms as usize, self.replicates as usize);
@@ -233,11 +204,6 @@ impl<S: Spectrum> PathEstimator<'_, S> {
         let caustic_lx = |r: usize, target: usize, term: usize| {
             self.caustics.as_ref().map_or(0.0, |caustics| caustics.term_lx(r, target, term))
         };
-        let connected_lx = |r: usize, target: usize, term: usize| {
-            self.light_vertices
-                .as_ref()
-                .map_or(0.0, |light_vertices| light_vertices.term_lx(r, target, term))
-        };
         let row = |term: usize, r: usize| -> Vec<f64> {
             let own = self.sums.iter().skip(r).step_by(replicates).zip(&self.exact).enumerate();
             own.map(|(target, (sums, exact))| {
@@ -245,20 +211,15 @@ impl<S: Spectrum> PathEstimator<'_, S> {
                 exact_lx.unwrap_or(0.0)
                     + self.mean(target, sum(sums, term))
                     + caustic_lx(r, target, term)
-                    + connected_lx(r, target, term)
             })
             .collect()
         };
         let resolved = |term: usize| -> Vec<bool> {
             let cut = self.context.max_bounces.is_some_and(|most| term > most as usize);
             let targets = self.sums.chunks_exact(replicates).zip(&self.samples_direct);
-            let targets = targets.enumerate();
             targets
-                .map(|(target, (own, samples_direct))| {
-                    let light_vertices = self.light_vertices.as_ref();
-                    let found = own.iter().any(|sums| !sum(sums, term).is_zero())
-                        || light_vertices
-                            .is_some_and(|light_vertices| light_vertices.found_term(target, term));
+                .map(|(own, samples_direct)| {
+                    let found = own.iter().any(|sums| !sum(sums, term).is_zero());
                     let may_be = if term == 0 {
                         *samples_direct
                     } else {
@@ -283,7 +244,7 @@ impl<S: Spectrum> PathEstimator<'_, S> {
             let sampled_lx = self.mean(target, sums.direct) + self.mean(target, sums.indirect);
             let caustics = self.caustics.as_ref();
             let caustic_lx = caustics.map_or(0.0, |map| map.target_lx(replicate, target));
-            exact.sum_lx() + sampled_lx + caustic_lx + self.connected_lx(replicate, target)
+            exact.sum_lx() + sampled_lx + caustic_lx
         };
         own.zip(&self.exact).enumerate().map(value_lx).collect()
     }
@@ -304,7 +265,6 @@ impl<S: Spectrum> PathEstimator<'_, S> {
         self.invalid_points
             + of_photons
             + self.caustics.as_ref().map_or(0, CausticMap::invalid)
-            + self.light_vertices.as_ref().map_or(0, LightVertexConnections::invalid)
             + self.sums.iter().map(PathSums::invalid).sum::<u64>()
     }
 
@@ -328,27 +288,19 @@ impl<S: Spectrum> Estimator for PathEstimator<'_, S> {
     fn estimates(&self) -> Estimates {
         let Costs { work, photons } = self.costs();
         let replicates = self.replicates as usize;
-        let missed_lobes = self.missed_lobes();
-        let of_lobes = lobes::warning(missed_lobes.iter().filter(|missed| **missed).count());
         let replicate_lx: Vec<Vec<f64>> = (0..replicates).map(|r| self.replicate_lx(r)).collect();
-        let missed_hits = self.missed_hits(&replicate_lx);
-        let of_hits = specular_hits::warning(missed_hits.iter().filter(|missed| **missed).count());
-        let tails = self.hidden_tails(&replicate_lx);
-        let missed = missed_lobes.into_iter().zip(missed_hits).zip(tails);
-        let missed: Vec<bool> = missed.map(|((lobes, hits), tail)| lobes || hits || tail).collect();
+        let missed = self.hidden_tails(&replicate_lx);
         let all = SensorEstimates {
             replicate_lx,
             direct_lx: self.direct_lx(),
             resolved: self.resolved(&missed),
             missed,
-            contradicted: vec![false; self.targets.len()],
             samples: (0..self.targets.len()).map(|target| self.samples_of(target)).collect(),
             terms: self.terms(),
             unseen: None,
         };
         let of_paths = cutoff::warning(work.endless, "paths", "values");
-        let warnings =
-            photons.warning().into_iter().chain(of_paths).chain(of_lobes).chain(of_hits).collect();
+        let warnings = photons.warning().into_iter().chain(of_paths).collect();
         Estimates {
             sensors: by_sensor(self.scene, &all),
             samples: self.samples,
@@ -381,9 +333,6 @@ impl<S: Spectrum> Estimator for PathEstimator<'_, S> {
 
     fn trace_part(&mut self, part: Range<u64>, samples: u64, watch: &mut Watch<'_>) -> bool {
         (self.first, self.samples) = (part.start, part.start);
-        if let Some(light_vertices) = &mut self.light_vertices {
-            light_vertices.go_to(part.start);
-        }
         self.serve(samples, watch) && self.gather(part.end, watch)
     }
 
@@ -412,7 +361,7 @@ impl<S: Spectrum> Estimator for PathEstimator<'_, S> {
     }
 
     fn complete_at(&mut self, samples: u64) {
-        self.complete(samples);
+        self.samples = samples;
     }
 
     fn freeze_converged(&mut self, done: &[bool]) -> bool {

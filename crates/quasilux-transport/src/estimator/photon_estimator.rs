@@ -20,7 +20,7 @@ use crate::photon::batch::{PhotonBatch, trace_photons_with_snapshots};
 use crate::photon::counts::PhotonCounts;
 use crate::photon::map::QUANTA_PER_PHOTON;
 use crate::photon::order::PhotonOrder;
-use crate::photon::receiver::{PhotonReceiver, ReceiverCounts, SeenPhoton};
+use crate::photon::receiver::{PhotonReceiver, SeenPhoton};
 use crate::photon::trace::{Lead, Source};
 use crate::settings::Settings;
 use crate::spectrum::Spectrum;
@@ -160,17 +160,7 @@ impl<S: Spectrum> PhotonEstimator<'_, S> {
         let resolved = found(&replicate_lx);
         let samples = vec![self.samples; direct_lx.len()];
         let missed = vec![false; direct_lx.len()];
-        let contradicted = missed.clone();
-        SensorEstimates {
-            replicate_lx,
-            direct_lx,
-            resolved,
-            missed,
-            contradicted,
-            samples,
-            terms,
-            unseen: None,
-        }
+        SensorEstimates { replicate_lx, direct_lx, resolved, missed, samples, terms, unseen: None }
     }
 }
 
@@ -376,8 +366,8 @@ impl<S: Spectrum> PhotonReceiver<S> for SensorReceiver<'_> {
         }
     }
 
-    fn finish(self) -> ReceiverCounts {
-        ReceiverCounts { rays: 0, invalid: self.invalid }
+    fn finish(self) -> u64 {
+        self.invalid
     }
 }
 

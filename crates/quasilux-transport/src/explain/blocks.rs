@@ -9,22 +9,8 @@ const MAX_BLOCKS: usize = 12;
 /// Coordinates that fewer samples get to belong to the last block.
 const MIN_REACHED: f64 = 1.0 / 64.0;
 
-/// The blocks of `samples` samples that drew these dimensions. What decides over connections has a
-/// block of its own, for its dimensions are far from all others.
-pub(super) fn from_uses(uses: BTreeMap<DimensionUse, u64>, samples: u64) -> Vec<Block> {
-    let (connections, others): (BTreeMap<_, _>, BTreeMap<_, _>) =
-        uses.into_iter().partition(|(used, _)| used.purpose == Purpose::Connections);
-    let mut blocks = in_order(&others, samples);
-    if let (Some(last), Some((first, _))) = (blocks.last_mut(), connections.first_key_value()) {
-        last.dimensions.end = first.dimension;
-        blocks.extend(in_order(&connections, samples));
-    }
-    blocks
-}
-
-/// Of dimensions from the first on that is in use.
-fn in_order(uses: &BTreeMap<DimensionUse, u64>, samples: u64) -> Vec<Block> {
-    let start = uses.keys().next().map_or(0, |used| used.dimension);
+/// The blocks of `samples` samples that drew these dimensions.
+pub(super) fn from_uses(uses: &BTreeMap<DimensionUse, u64>, samples: u64) -> Vec<Block> {
     let end = uses.keys().next_back().map_or(0, |used| used.dimension + 1);
     let of_dimension = |dimension: u32| {
         let first = |dimension| DimensionUse { dimension, purpose: FIRST_PURPOSE };
@@ -33,7 +19,7 @@ fn in_order(uses: &BTreeMap<DimensionUse, u64>, samples: u64) -> Vec<Block> {
     };
     let mut blocks: Vec<Block> = Vec::new();
     let mut last_purpose = None;
-    for dimension in start..end {
+    for dimension in 0..end {
         let drawn: u64 = of_dimension(dimension).map(|(_, count)| count).sum();
         let reached = drawn as f64 / samples as f64;
         let most = of_dimension(dimension).max_by_key(|&(_, count)| count);

@@ -11,7 +11,6 @@
 //!
 //! Values are kept by index and summed in their order, so that threads change no bit.
 
-mod beside;
 mod blocks;
 mod gain;
 mod paths;
@@ -72,17 +71,6 @@ pub struct Explanation {
     pub truncation_dimension: Option<u32>,
     /// What the sequence of the run is worth; `None` where nothing is randomised or nothing varies.
     pub gain: Option<Gain>,
-    /// Photons that stand beside the paths, where they do.
-    pub beside: Vec<Beside>,
-}
-
-/// Photons that stand beside paths.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Beside {
-    /// How many go with a path.
-    pub for_each_path: u64,
-    /// Where the variance of one of them comes from, at the same targets.
-    pub explanation: Explanation,
 }
 
 /// What a pilot traces.
@@ -94,13 +82,6 @@ pub enum SampleKind {
     Paths,
     /// Paths from the sensors that end on an illumination map, given the map.
     PathsOnMap,
-    /// Paths from the sensors beside photons that find the rest, given the photons.
-    PathsBesidePhotons,
-    /// Photons beside these paths that are counted by the cells they land in.
-    CountedPhotons,
-    /// Photons beside these paths that are connected to the sensors, beyond what is expected of
-    /// them.
-    ConnectedPhotons,
 }
 
 impl SampleKind {
@@ -108,8 +89,8 @@ impl SampleKind {
     /// one each.
     fn samples_an_index(self, targets: usize) -> usize {
         match self {
-            Self::Photons | Self::CountedPhotons | Self::ConnectedPhotons => 1,
-            Self::Paths | Self::PathsOnMap | Self::PathsBesidePhotons => targets,
+            Self::Photons => 1,
+            Self::Paths | Self::PathsOnMap => targets,
         }
     }
 }
@@ -182,20 +163,13 @@ fn on_stage<S: Spectrum>(scene: &Scene, settings: &Settings) -> Explanation {
     context.purposes = PurposeRecorder::recording(&ledger);
     match settings.estimator {
         EstimatorKind::Photon => {
-            look_into(&PhotonSource::new(&context, scene, settings), &ledger, settings).explanation
+            look_into(&PhotonSource::new(&context, scene, settings), &ledger, settings)
         }
         EstimatorKind::Auto
         | EstimatorKind::Path
         | EstimatorKind::Bidirectional
-        | EstimatorKind::Selected
         | EstimatorKind::BidirectionalMap => {
-            let walk = PathSource::new(&context, scene, settings);
-            let Look { explanation, means_lx } = look_into(&walk, &ledger, settings);
-            let beside = walk.beside(&means_lx).map(|walk| Beside {
-                for_each_path: walk.for_each_path(),
-                explanation: look_into(&walk, &ledger, settings).explanation,
-            });
-            Explanation { beside: beside.collect(), ..explanation }
+            look_into(&PathSource::new(&context, scene, settings), &ledger, settings)
         }
     }
 }
@@ -253,14 +227,7 @@ trait SampleSource: Sync {
     fn trace(&self, samples: u64, points: &Points<'_>) -> Pilot;
 }
 
-/// What is known of a walk.
-struct Look {
-    explanation: Explanation,
-    /// Of each target.
-    means_lx: Vec<f64>,
-}
-
-fn look_into(walk: &dyn SampleSource, ledger: &Ledger, settings: &Settings) -> Look {
+fn look_into(walk: &dyn SampleSource, ledger: &Ledger, settings: &Settings) -> Explanation {
     let mut exchange = Exchange { walk, seed: settings.seed, rays: 0 };
     ledger.set_open(true);
     let pilot = exchange.trace(&|stream| exchange_points(settings.seed, PILOT, stream));
@@ -269,7 +236,7 @@ fn look_into(walk: &dyn SampleSource, ledger: &Ledger, settings: &Settings) -> L
     let spread = Spread::new([&pilot.values, &other.values], walk.whole_lx());
     let samples = walk.samples();
     let an_index = walk.kind().samples_an_index(pilot.values.len());
-    let mut blocks = blocks::from_uses(ledger.take(), samples * an_index as u64);
+    let mut blocks = blocks::from_uses(&ledger.take(), samples * an_index as u64);
     let mut truncation_dimension = None;
     if spread.varies() {
         blocks.iter_mut().for_each(|block| exchange.measure(block, &spread));
@@ -279,7 +246,7 @@ fn look_into(walk: &dyn SampleSource, ledger: &Ledger, settings: &Settings) -> L
         blocks.iter().map(|block| block.total.map(|share| share.value)).collect();
     let mut rays = exchange.rays;
     let gain = gain(walk, settings, &spread, &mut rays);
-    let explanation = Explanation {
+    Explanation {
         walk: walk.kind(),
         targets: pilot.values.len(),
         samples,
@@ -290,9 +257,7 @@ fn look_into(walk: &dyn SampleSource, ledger: &Ledger, settings: &Settings) -> L
         truncation_dimension,
         blocks,
         gain,
-        beside: Vec::new(),
-    };
-    Look { explanation, means_lx: spread.into_means() }
+    }
 }
 
 /// Independent points of a stream, the pilot's or those exchanged for them.
@@ -347,9 +312,7 @@ impl Exchange<'_> {
     /// The first dimension of a block from which on all together carry at most a hundredth of the
     /// variance.
     fn truncation_dimension(&mut self, blocks: &[Block], spread: &Spread) -> Option<u32> {
-        let is_own =
-            |block: &&Block| block.uses.iter().all(|used| used.purpose != Purpose::Connections);
-        let mut firsts = blocks.iter().skip(1).filter(is_own).map(|block| block.dimensions.start);
+        let mut firsts = blocks.iter().skip(1).map(|block| block.dimensions.start);
         firsts.find(|&first| !carries(spread.total(&self.exchanged(first..u32::MAX)), 0.01))
     }
 }

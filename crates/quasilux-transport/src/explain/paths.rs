@@ -1,19 +1,14 @@
 //! Paths as a pilot sees them: what each finds at some of the sensor points.
 
-use super::beside::{BesideSource, Role};
 use super::{Pilot, Points, SampleKind, SampleSource};
 use crate::context::{Context, Stream};
-use crate::estimator::connection::LightVertexConnections;
 use crate::estimator::exact::exact;
-use crate::estimator::pilot::Request;
-use crate::estimator::selection::{Decision, decide};
-use crate::path::end::{EndPilots, PathEnd};
+use crate::path::end::PathEnd;
 use crate::path::sections::Section;
 use crate::path::wave::{PathWave, WAVE};
 use crate::photon::caustics::CausticMap;
-use crate::settings::{EstimatorKind, Settings};
+use crate::settings::Settings;
 use crate::spectrum::Spectrum;
-use crate::stats::tally::Quantum;
 use crate::stats::targets::{Target, targets};
 use crate::stats::watch::Watch;
 use quasilux_sampling::DimensionHistogram;
@@ -24,8 +19,6 @@ use rayon::prelude::*;
 const TARGETS: usize = 8;
 /// Paths from each.
 const SAMPLES: u64 = 1 << 10;
-/// Samples whose photons say how much light paths need not find.
-const JOINED_SAMPLES: u64 = 1 << 6;
 /// Photons on the map where it grows with the run.
 const MAP_PHOTONS: u64 = 1 << 14;
 
@@ -34,8 +27,6 @@ pub(super) struct PathSource<'s, S> {
     targets: Vec<PathTarget>,
     end: PathEnd<S>,
     caustics: Option<CausticMap<S>>,
-    /// Photons that find a part of the light, for these targets.
-    light_vertices: Option<LightVertexConnections>,
     kind: SampleKind,
 }
 
@@ -43,8 +34,7 @@ struct PathTarget {
     /// Its number among all.
     number: u64,
     target: Target,
-    /// Light that is no matter of paths: direct light, what connected photons find, and what only
-    /// photons find.
+    /// Light that is no matter of paths: direct light, and what only photons find.
     given_lx: f64,
 }
 
@@ -65,53 +55,24 @@ impl<'s, S: Spectrum> PathSource<'s, S> {
         let mut watch = Watch::new(&mut observer);
         let one = Settings { replicates: 1, ..settings.clone() };
         let exact = exact(context, &all, &mut 0);
-        let quantum = Quantum::for_reference(context.lights.reference_lx(&context.world));
-        let (targets, exact) = (all.as_slice(), exact.as_slice());
-        let request = Request { settings, replicates: 1, targets, exact, quantum };
-        let Decision { light_vertices, frozen, .. } = decide(context, &request, &mut watch);
-        let mut light_vertices = light_vertices
-            .map(|light_vertices| light_vertices.with_targets(context, &numbers, targets));
-        if let Some(light_vertices) = &mut light_vertices {
-            // As many photons as say how much light they find.
-            light_vertices.grow(context, JOINED_SAMPLES, &mut watch);
-        }
-        let targets = numbers.iter().enumerate().map(|(i, &number)| PathTarget {
+        let targets = numbers.iter().map(|&number| PathTarget {
             number: number as u64,
             target: all[number],
-            given_lx: exact[number].sum_lx()
-                + light_vertices.as_ref().map_or(0.0, |light_vertices| light_vertices.lx(0, i)),
+            given_lx: exact[number].sum_lx(),
         });
         let mut targets: Vec<PathTarget> = targets.collect();
-        let pilots = EndPilots { frozen, photons: None };
-        let mut end = PathEnd::prepare(context, &one, &all, pilots, &mut watch).end;
+        let mut end = PathEnd::prepare(context, &one, &all, &mut watch).end;
         let photons = settings.max_samples.map_or(MAP_PHOTONS, |most| most.min(MAP_PHOTONS));
         end.grow(context, photons, |_| None, &mut watch);
         let caustics = Self::caustics(context, &one, &targets, &mut watch);
         for (i, target) in targets.iter_mut().enumerate() {
             target.given_lx += caustics.as_ref().map_or(0.0, |caustics| caustics.target_lx(0, i));
         }
-        let kind = match settings.estimator {
-            EstimatorKind::Path => SampleKind::Paths,
-            _ if light_vertices.is_some() => SampleKind::PathsBesidePhotons,
-            _ if matches!(end, PathEnd::Nothing) => SampleKind::Paths,
-            _ => SampleKind::PathsOnMap,
+        let kind = match &end {
+            PathEnd::Nothing => SampleKind::Paths,
+            PathEnd::Own { .. } => SampleKind::PathsOnMap,
         };
-        Self { context, targets, end, caustics, light_vertices, kind }
-    }
-
-    /// The photons that find a part of the light, as walks of their own, where the targets get this
-    /// much in all.
-    pub(super) fn beside(&self, whole_lx: &[f64]) -> impl Iterator<Item = BesideSource<'_, S>> {
-        let walks = self.light_vertices.iter().flat_map(move |light_vertices| {
-            // Of a target that is nearly dark, little is known but what was predicted.
-            let known = whole_lx.iter().zip(light_vertices.predicted_lx());
-            let whole_lx: Vec<f64> = known.map(|(lx, predicted)| lx.max(0.5 * predicted)).collect();
-            [Role::Counted, Role::LightVertexConnections].map(|role| {
-                let whole_lx = whole_lx.clone();
-                BesideSource { context: self.context, light_vertices, role, whole_lx }
-            })
-        });
-        walks.filter(|walk| walk.for_each_path() > 0)
+        Self { context, targets, end, caustics, kind }
     }
 
     /// Light that only photons find, as far as paths read it.
@@ -160,11 +121,7 @@ impl<S: Spectrum> SampleSource for PathSource<'_, S> {
                 number: 0,
                 target: target.target,
                 points: points(Stream::Paths(target.number)),
-                rest: self.end.rest(self.context, 0, target.number as usize),
-                partition: self
-                    .light_vertices
-                    .as_ref()
-                    .map(|light_vertices| &light_vertices.connection.partition),
+                map_end: self.end.map_end(self.context, 0),
                 caustics: self.caustics.as_ref().and_then(|caustics| caustics.map(0)),
                 indices: first..(first + WAVE).min(samples),
             };

@@ -44,11 +44,6 @@ impl<'v> Spread<'v> {
         self.means.len()
     }
 
-    /// The mean of each target.
-    pub(super) fn into_means(self) -> Vec<f64> {
-        self.means
-    }
-
     /// Whether there is any variance.
     pub(super) fn varies(&self) -> bool {
         let deviation = self.relative_deviation();

@@ -44,7 +44,7 @@ impl SampleSource for Ishigami<'_> {
 
 fn look(step: f64, settings: &Settings) -> Explanation {
     let ledger = Ledger::default();
-    look_into(&Ishigami { ledger: &ledger, step }, &ledger, settings).explanation
+    look_into(&Ishigami { ledger: &ledger, step }, &ledger, settings)
 }
 
 /// Of the variance, `(1 + pi^4 / 50)^2 / 2` is that of x alone, 49 / 8 that of y, and `8 pi^8 /

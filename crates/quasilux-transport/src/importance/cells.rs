@@ -15,8 +15,6 @@ const CELLS: f64 = 2048.0;
 const MAX_BOXES: f64 = (1 << 16) as f64;
 /// Cells are seen as small from this many of their edges.
 const FAR_EDGES: f64 = 6.0;
-/// Boxes that meet around a place.
-const CORNERS: usize = 8;
 /// Ways to face: along or against each axis.
 const SIDES: usize = 6;
 /// Parts along an edge of a facet by which its area is told to cells, at most.
@@ -26,20 +24,6 @@ const MAX_PARTS: f64 = 256.0;
 pub(crate) struct Regions {
     cells: Cells,
     number_of_cell: Vec<u32>,
-}
-
-/// The regions around a place, with weights of interpolation.
-#[derive(Clone, Copy, Default)]
-pub(crate) struct Around {
-    parts: [CellWeight; CORNERS],
-    known: usize,
-}
-
-/// A cell with its weight in an interpolation.
-#[derive(Clone, Copy, Default)]
-pub(crate) struct CellWeight {
-    pub(crate) cell: usize,
-    pub(crate) weight: f64,
 }
 
 /// A grid of boxes over the scene.
@@ -70,29 +54,6 @@ impl Regions {
     pub(crate) fn number(&self, position: DVec3, n: DVec3) -> Option<usize> {
         let number = self.number_of_cell[self.cells.cell_of(position, n)];
         (number != Self::UNKNOWN).then_some(number as usize)
-    }
-
-    /// The known regions around a place on the side `n` of a surface, with the weights of linear
-    /// interpolation between the middles of their boxes.
-    pub(crate) fn around(&self, position: DVec3, n: DVec3) -> Around {
-        let mut around = Around::default();
-        for CellWeight { cell, weight } in self.cells.corners(position, n) {
-            let number = self.number_of_cell[cell];
-            if number != Self::UNKNOWN && weight > 0.0 {
-                around.parts[around.known] = CellWeight { cell: number as usize, weight };
-                around.known += 1;
-            }
-        }
-        let sum: f64 = around.iter().map(|part| part.weight).sum();
-        around.parts.iter_mut().for_each(|part| part.weight /= sum);
-        around
-    }
-}
-
-impl Around {
-    /// Each known region with its weight; the weights sum to 1. None where no region is known.
-    pub(crate) fn iter(&self) -> impl Iterator<Item = CellWeight> {
-        self.parts[..self.known].iter().copied()
     }
 }
 
@@ -130,25 +91,6 @@ impl Cells {
     fn cell_of(&self, position: DVec3, n: DVec3) -> usize {
         let place = ((position - self.low) / self.edge_m).to_array();
         self.cell_in(place.map(|x| x.max(0.0) as usize), n)
-    }
-
-    /// The cells in the boxes around a place, and the weights of linear interpolation. Where there
-    /// is no such box, the nearest stands for it.
-    fn corners(&self, position: DVec3, n: DVec3) -> [CellWeight; CORNERS] {
-        let from_middles =
-            ((position - self.low) / self.edge_m).to_array().map(|x| (x + 0.5).max(0.0));
-        let along = |axis: usize| {
-            let high = from_middles[axis] as usize;
-            let high_share = from_middles[axis] - high as f64;
-            let boxes = [high.saturating_sub(1), high].map(|place| self.bounded(place, axis));
-            [(boxes[0], 1.0 - high_share), (boxes[1], high_share)]
-        };
-        let (along, side) = ([0, 1, 2].map(along), side(n));
-        std::array::from_fn(|corner| {
-            let [x, y, z] = std::array::from_fn(|axis| along[axis][corner >> axis & 1]);
-            let cell = self.number([x.0, y.0, z.0], side);
-            CellWeight { cell, weight: x.1 * y.1 * z.1 }
-        })
     }
 
     /// The cell in a box, or the nearest box that there is, on the side `n`.
@@ -207,34 +149,4 @@ fn side(n: DVec3) -> usize {
         2
     };
     2 * axis + usize::from(n[axis] > 0.0)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Linear interpolation between the middles of boxes gives back each place, and next to the
-    /// faces of the grid the nearest place between middles.
-    #[test]
-    fn corners_interpolate() {
-        let (low, edge_m, counts) = (DVec3::new(-1.0, 2.0, 0.5), 0.25, [5, 3, 4]);
-        let cells = Cells { low, edge_m, counts };
-        let [nx, ny, _] = counts;
-        let middle = |cell: usize| {
-            let place = cell / SIDES;
-            let boxes = [place % nx, place / nx % ny, place / (nx * ny)];
-            low + DVec3::from(boxes.map(|place| (place as f64 + 0.5) * edge_m))
-        };
-        let size_m = DVec3::from(counts.map(|count| count as f64 * edge_m));
-        let half = DVec3::splat(0.5 * edge_m);
-        for i in 0..1000 {
-            let part = [31, 57, 83].map(|step| f64::from(i * step % 1000) / 990.0 - 0.005);
-            let at = low + size_m * DVec3::from(part);
-            let corners = cells.corners(at, -DVec3::Y);
-            let found: DVec3 = corners.iter().map(|part| middle(part.cell) * part.weight).sum();
-            let wanted = at.clamp(low + half, low + size_m - half);
-            assert!(found.distance(wanted) < 1e-12, "{at}: {found}");
-            assert!(corners.iter().all(|part| part.cell % SIDES == 2 && part.weight >= 0.0));
-        }
-    }
 }

@@ -27,8 +27,6 @@ pub(crate) struct FluxAndImportance {
     pub(crate) landed_importance: Vec<f64>,
     /// Importance of a photon of weight one that leaves.
     pub(crate) leaving_importance: Vec<f64>,
-    /// Illuminance at each surveyed sensor, in lx.
-    pub(crate) sensors_lx: Vec<f64>,
 }
 
 impl FluxAndImportance {
@@ -41,7 +39,7 @@ impl FluxAndImportance {
         let landed_importance = (0..read.len())
             .map(|cell| read[cell] + survey.known[cell].albedo * leaving_importance[cell])
             .collect();
-        Some(Self { landing, landed_importance, leaving_importance, sensors_lx })
+        Some(Self { landing, landed_importance, leaving_importance })
     }
 }
 

@@ -11,15 +11,12 @@
 
 mod cells;
 mod flux_and_importance;
-mod forecast;
 mod guiding_tree;
 mod survey;
 #[cfg(test)]
 mod tests;
 mod weight_windows;
 
-pub(crate) use cells::{Around, CellWeight};
-pub(crate) use forecast::{Density, Forecast, Landings};
 pub(crate) use guiding_tree::{GuidingTree, MAX_NODES, Node};
 pub(crate) use weight_windows::{Split, WeightWindows};
 
@@ -29,7 +26,6 @@ use crate::spectrum::Spectrum;
 use crate::stats::efficiency::Performance;
 use crate::stats::targets::Target;
 use flux_and_importance::FluxAndImportance;
-use std::sync::Arc;
 use survey::Survey;
 
 /// Photons are guided by themselves where the same error then costs this many times fewer rays. A
@@ -44,13 +40,6 @@ const LOOKS: u32 = 2;
 pub(crate) struct Plan {
     /// `None` where photons are left alone.
     pub(crate) windows: Option<WeightWindows>,
-    /// What to expect then; `None` where the survey found no light on its way to sensors.
-    pub(crate) forecast: Option<Forecast>,
-    /// Of photons that are guided.
-    pub(crate) guided: Option<Performance>,
-    /// Times that the same error costs fewer rays where photons are guided, as predicted before
-    /// the closer look.
-    pub(crate) gain: f64,
     /// Rays of the survey.
     pub(crate) rays: u64,
 }
@@ -61,51 +50,22 @@ pub(crate) fn plan<S: Spectrum>(
     targets: &[Target],
     importance: Switch,
 ) -> Plan {
-    match importance {
-        Switch::Off => Plan::default(),
-        Switch::Auto | Switch::On => survey(context, targets, importance),
+    if importance == Switch::Off {
+        return Plan::default();
     }
-}
-
-/// Surveys the scene, whether photons are to be guided or not, and decides.
-pub(crate) fn survey<S: Spectrum>(
-    context: &Context<'_, S>,
-    targets: &[Target],
-    importance: Switch,
-) -> Plan {
     let Some(mut survey) = Survey::new(context, targets) else { return Plan::default() };
-    let Some(mut solved) = connect_far_cells(context, &mut survey, 1) else {
+    let Some(solution) = connect_far_cells(context, &mut survey, 1) else {
         return Plan { rays: survey.rays, ..Plan::default() };
     };
-    let plain = Performance::plain(&survey, &solved.solution).cost_of_error();
-    let gain = plain / Performance::guided(&survey, &solved.solution).cost_of_error();
-    let uses_importance = match importance {
-        Switch::Auto => gain >= WORTHWHILE,
-        Switch::On => true,
-        Switch::Off => false,
-    };
-    if uses_importance {
-        survey.refine(context);
-        let Some(refined) = connect_far_cells(context, &mut survey, LOOKS) else {
-            return Plan { rays: survey.rays, ..Plan::default() };
-        };
-        solved = refined;
+    let plain = Performance::plain(&survey, &solution).cost_of_error();
+    let gain = plain / Performance::guided(&survey, &solution).cost_of_error();
+    if importance == Switch::Auto && gain < WORTHWHILE {
+        return Plan { rays: survey.rays, ..Plan::default() };
     }
-    let Solved { solution, areas_m2 } = solved;
-    let regions = Arc::new(survey.regions());
-    let windows =
-        uses_importance.then(|| WeightWindows::new(&survey, Arc::clone(&regions), &solution));
-    let guided = windows.as_ref().map(|windows| windows.performance(&survey, &solution));
-    let guided = guided.map(|of_all| of_all.of_each_sensor(&survey));
-    let weights = windows.as_ref().map_or(vec![1.0; survey.known.len()], WeightWindows::weights);
-    let forecast = Forecast::new(&survey, regions, &solution, &areas_m2, &weights);
-    Plan { windows, forecast: Some(forecast), guided, gain, rays: survey.rays }
-}
-
-/// Flux and importance of the known cells, and their areas.
-struct Solved {
-    solution: FluxAndImportance,
-    areas_m2: Vec<f64>,
+    survey.refine(context);
+    let refined = connect_far_cells(context, &mut survey, LOOKS);
+    let windows = refined.map(|solution| WeightWindows::new(&survey, &solution));
+    Plan { windows, rays: survey.rays }
 }
 
 /// Connects cells over distances, to those of most importance by the solution so far, and solves
@@ -114,14 +74,14 @@ fn connect_far_cells<S: Spectrum>(
     context: &Context<'_, S>,
     survey: &mut Survey,
     short_looks: u32,
-) -> Option<Solved> {
+) -> Option<FluxAndImportance> {
     let flux_lm = context.lights.flux_lm;
     let areas_m2 = areas_m2(context, survey);
     for _ in 0..short_looks {
         let solution = FluxAndImportance::new(survey, &areas_m2, flux_lm)?;
         survey.connect(context, &areas_m2, &solution.landed_importance);
     }
-    Some(Solved { solution: FluxAndImportance::new(survey, &areas_m2, flux_lm)?, areas_m2 })
+    FluxAndImportance::new(survey, &areas_m2, flux_lm)
 }
 
 /// Areas of the known cells in m^2. Where facets were told to cells too coarsely for one, it gets

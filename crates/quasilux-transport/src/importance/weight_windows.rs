@@ -18,7 +18,6 @@ use crate::importance::survey::{Survey, SurveyCell, Transition};
 use crate::stats::efficiency::Performance;
 use crate::world::Interaction;
 use rayon::prelude::*;
-use std::sync::Arc;
 
 /// No photon is split into more at one landing.
 pub(crate) const MAX_CHILDREN: f64 = 16.0;
@@ -29,7 +28,7 @@ const HEAVIEST: f64 = 8.0;
 
 /// Weight windows and guides by surveyed cell.
 pub(crate) struct WeightWindows {
-    regions: Arc<Regions>,
+    regions: Regions,
     /// By number of the cell.
     windows: Vec<Window>,
 }
@@ -45,22 +44,8 @@ pub(crate) struct Window {
 
 impl WeightWindows {
     /// In inverse proportion to importance.
-    pub(crate) fn new(
-        survey: &Survey,
-        regions: Arc<Regions>,
-        solution: &FluxAndImportance,
-    ) -> Self {
-        Self { regions, windows: importance_windows(survey, solution) }
-    }
-
-    /// What they cost and give.
-    pub(crate) fn performance(&self, survey: &Survey, solution: &FluxAndImportance) -> Performance {
-        Performance::predict(survey, solution, &self.windows)
-    }
-
-    /// The weight with which photons leave each known cell.
-    pub(crate) fn weights(&self) -> Vec<f64> {
-        self.windows.iter().map(|window| window.weight).collect()
+    pub(crate) fn new(survey: &Survey, solution: &FluxAndImportance) -> Self {
+        Self { regions: survey.regions(), windows: importance_windows(survey, solution) }
     }
 
     /// Puts them among the decisions.
@@ -97,12 +82,6 @@ impl Performance {
     /// Of photons that are guided.
     pub(crate) fn guided(survey: &Survey, solution: &FluxAndImportance) -> Self {
         Self::predict(survey, solution, &importance_windows(survey, solution))
-    }
-
-    /// The same with the sum of the variances at the sensors, if each gets about the same of every
-    /// photon.
-    pub(crate) fn of_each_sensor(self, survey: &Survey) -> Self {
-        Self { variance: self.variance / survey.sensors.len().max(1) as f64, ..self }
     }
 
     /// Sums over all landings of the variance that the decision there and the next step bring. From

@@ -73,20 +73,6 @@ impl<'a> PointLikes<'a> {
         intensity_cd(self.lights[index as usize], direction)
     }
 
-    /// Light of each that is not behind the side `n` of a place, or of all where both sides count,
-    /// if nothing stands in the way.
-    pub(crate) fn unshadowed(
-        &self,
-        place: DVec3,
-        n: DVec3,
-        takes_both_sides: bool,
-    ) -> impl Iterator<Item = Incidence> {
-        let sides = [Some(n), takes_both_sides.then_some(-n)].into_iter().flatten();
-        sides.flat_map(move |n| {
-            self.lights.iter().filter_map(move |light| Incidence::new(light, place, n))
-        })
-    }
-
     /// What all of them give, every one tested: tells `receive` who gets how much. One light comes
     /// after the other, so that rays toward the same light are neighbours.
     pub(crate) fn all<S: Spectrum>(

@@ -2,7 +2,6 @@
 //! series.
 
 use crate::path::daylight::FromOutside;
-use crate::path::lobes::Lobes;
 use crate::spectrum::Spectrum;
 
 /// What one path found: illuminance in lx or luminance in cd/m^2, as its start wants.
@@ -10,7 +9,7 @@ use crate::spectrum::Spectrum;
 pub(crate) struct PathContribution<S> {
     /// Straight from the lights; of the point-like ones only where the start asks for it.
     pub(crate) direct: S,
-    /// After at least one bounce; may be negative where a map is corrected.
+    /// After at least one bounce.
     pub(crate) indirect: S,
     /// Both by the number of bounces, the last all from there on; empty where terms are not listed.
     pub(crate) terms: Vec<S>,
@@ -18,12 +17,8 @@ pub(crate) struct PathContribution<S> {
     pub(crate) reflected: bool,
     /// Whether it was cut on its way.
     pub(crate) endless: bool,
-    /// Materials of the emitting facets that it met coming from specular surfaces.
-    pub(crate) specular_hits: Vec<u32>,
     /// What came from outside, where that is kept apart by direction; not in the sums above.
     pub(crate) from_outside: Vec<FromOutside>,
-    /// The glossy surfaces that it came to.
-    pub(crate) lobes: Lobes,
 }
 
 impl<S: Spectrum> PathContribution<S> {

@@ -2,7 +2,6 @@
 
 use crate::context::{Context, Stream};
 use crate::path::daylight::{DaylightSearch, FromOutside};
-use crate::path::end::Rest;
 use crate::path::start::{Measurement, Start};
 use crate::path::wave::{PathWave, WAVE};
 use crate::purpose::Purpose;
@@ -44,9 +43,8 @@ pub(crate) fn trace<S: Spectrum>(
         Start {
             from: context.world.ray_origin_of_sensor(position, n),
             measurement: Measurement::Illuminance { n, tests_pointlikes: false },
-            rest: &Rest::Path,
+            map_end: None,
             caustics: None,
-            partition: None,
             virtual_lights: None,
             pixel: None,
             daylight: Some(search),

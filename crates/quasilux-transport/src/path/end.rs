@@ -1,9 +1,8 @@
-//! Illumination maps that paths end on: none, one frozen map, or a growing map for each replicate.
+//! Illumination maps that paths end on: none, or a growing map for each replicate.
 
 use crate::codec::{Reader, StateError, Stored, Writer};
 use crate::context::{Context, Stream};
 use crate::importance::{self, Plan, WeightWindows};
-use crate::path::frozen_map::{FrozenEnd, FrozenMap, MapFacts, TracedMap};
 use crate::photon::batch::{PhotonBatch, trace_photons, trace_photons_with_snapshots};
 use crate::photon::counts::PhotonCounts;
 use crate::photon::first_shot::decide;
@@ -24,8 +23,6 @@ const BALANCE_PHOTONS: u64 = 1 << 12;
 /// What the paths end on.
 pub(crate) enum PathEnd<S> {
     Nothing,
-    /// One map, frozen before the first path, whose error is corrected.
-    Frozen(FrozenMap<S>),
     /// A map for each replicate that grows with it.
     Own {
         layout: MapLayout,
@@ -41,12 +38,15 @@ pub(crate) enum PathEnd<S> {
     },
 }
 
-/// What pilots left behind.
-pub(crate) struct EndPilots<S> {
-    /// The map that they chose.
-    pub(crate) frozen: Option<TracedMap<S>>,
-    /// Photons from the lights, of a map that they did not choose.
-    pub(crate) photons: Option<PhotonCounts>,
+/// Facts about the maps that paths end on, for reports.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct MapFacts {
+    /// Sides of elements; `None` without maps.
+    pub(crate) elements: Option<u64>,
+    /// Whether photons leave lit places.
+    pub(crate) first_shot: bool,
+    /// Whether they are guided.
+    pub(crate) uses_importance: bool,
 }
 
 /// What the paths end on, and the photons that were traced for it.
@@ -55,19 +55,7 @@ pub(crate) struct Prepared<S> {
     pub(crate) counts: PhotonCounts,
 }
 
-/// Where the light at a diffuse surface comes from, but for the direct light.
-pub(crate) enum Rest<'m, S> {
-    /// From the path itself.
-    Path,
-    /// The same, and the path notes where it might have ended on a map.
-    Recorded,
-    /// From a map.
-    Map(MapEnd<'m, S>),
-    /// From a map that is corrected.
-    Frozen(FrozenEnd<'m, S>),
-}
-
-/// How paths end on a map that is not corrected.
+/// How paths end on a map.
 pub(crate) struct MapEnd<'m, S> {
     pub(crate) layout: &'m MapLayout,
     pub(crate) map: IlluminationMap<'m, S>,
@@ -91,29 +79,16 @@ impl<S: Spectrum> GrowingMaps<'_, S> {
             return None;
         }
         let place = self.layout.locate(&at);
-        let map_lx =
-            |tally: &MapTally<S>| tally.read(self.photon_lm).illuminance_lx(&place, u32::MAX);
+        let map_lx = |tally: &MapTally<S>| tally.read(self.photon_lm).illuminance_lx(&place);
         Some(self.tallies.iter().map(|tally| map_lx(tally).luminance()).sum())
     }
 }
 
 impl<S: Spectrum> PathEnd<S> {
-    /// The most that is left of the light of area lights that comes to paths over specular surfaces
-    /// and that they do not ask for. They never ask where maps hold it, and do not look for it
-    /// where all of them end on a map at their first surface.
-    pub(crate) fn most_unasked(&self, context: &Context<'_, S>) -> f64 {
-        let look_for_all = match self {
-            Self::Nothing => false,
-            Self::Own { .. } => !context.world.maps_all_that_scatters(),
-            Self::Frozen(_) => true,
-        };
-        if look_for_all { 1.0 } else { context.images.most_left_out(&context.world) }
-    }
-
     /// Photons of all maps for each index.
     pub(crate) fn photons_of_an_index(&self, replicates: u32) -> u64 {
         match self {
-            Self::Nothing | Self::Frozen(_) => 0,
+            Self::Nothing => 0,
             Self::Own { photons_per_path, .. } => {
                 photons_per_path.saturating_mul(u64::from(replicates))
             }
@@ -122,13 +97,11 @@ impl<S: Spectrum> PathEnd<S> {
 }
 
 impl<S: Spectrum> PathEnd<S> {
-    /// What paths of these settings end on, where pilots chose a `frozen` map or none; traces the
-    /// photons that come before all paths, if there are none yet that say where the flux goes.
+    /// What paths of these settings end on; traces the photons that say where the flux goes.
     pub(crate) fn prepare(
         context: &Context<'_, S>,
         settings: &Settings,
         targets: &[Target],
-        pilots: EndPilots<S>,
         watch: &mut Watch<'_>,
     ) -> Prepared<S> {
         // Before the first checkpoint the observer stops nothing, so there are always counts.
@@ -137,17 +110,9 @@ impl<S: Spectrum> PathEnd<S> {
             let none: Option<MapReceiver<'_, S>> = None;
             trace_photons(context, &batch, |_| none, watch).unwrap_or_default()
         };
-        if let Some(TracedMap { map, mut counts }) = pilots.frozen {
-            if map.facts().first_shot {
-                // Photons of the lit cells do not say where the flux of the lights goes.
-                counts += balance(watch);
-            }
-            return Prepared { end: Self::Frozen(map), counts };
-        }
         if settings.estimator != EstimatorKind::BidirectionalMap || settings.max_bounces == Some(0)
         {
-            let counts = pilots.photons.unwrap_or_else(|| balance(watch));
-            return Prepared { end: Self::Nothing, counts };
+            return Prepared { end: Self::Nothing, counts: balance(watch) };
         }
         let mut counts = PhotonCounts::default();
         let lit_cells = decide(context, settings, u64::MAX, &mut counts);
@@ -172,7 +137,7 @@ impl<S: Spectrum> PathEnd<S> {
     /// point ask for; `None` where no map grows.
     pub(crate) fn photons(&self, samples: u64) -> Option<Range<u64>> {
         match self {
-            Self::Nothing | Self::Frozen(_) => None,
+            Self::Nothing => None,
             Self::Own { photons, photons_per_path, .. } => {
                 Some(*photons..samples.saturating_mul(*photons_per_path))
             }
@@ -183,7 +148,6 @@ impl<S: Spectrum> PathEnd<S> {
     pub(crate) fn facts(&self) -> MapFacts {
         match self {
             Self::Nothing => MapFacts::default(),
-            Self::Frozen(map) => map.facts(),
             Self::Own { layout, lit_cells, windows, .. } => MapFacts {
                 elements: Some(layout.len() as u64),
                 first_shot: lit_cells.is_some(),
@@ -192,11 +156,10 @@ impl<S: Spectrum> PathEnd<S> {
         }
     }
 
-    /// Puts out what was decided before the first path, a frozen map included.
+    /// Puts out what was decided before the first path.
     pub(crate) fn put_decisions(&self, out: &mut Writer) {
         match self {
             Self::Nothing => {}
-            Self::Frozen(map) => map.put(out),
             Self::Own { layout, lit_cells, windows, .. } => {
                 layout.put(out);
                 lit_cells.iter().for_each(|cells| cells.put(out));
@@ -237,22 +200,15 @@ impl<S: Spectrum> PathEnd<S> {
         Some(source.counted(counts))
     }
 
-    /// Where the paths of one target in one replicate end.
-    pub(crate) fn rest(
+    /// Where the paths of one replicate end.
+    pub(crate) fn map_end(
         &self,
         context: &Context<'_, S>,
         replicate: u32,
-        target: usize,
-    ) -> Rest<'_, S> {
-        match self {
-            Self::Nothing => Rest::Path,
-            Self::Frozen(map) => Rest::Frozen(map.end(target)),
-            Self::Own { layout, tallies, photons, .. } => {
-                let flux_lm = context.lights.flux_lm / *photons as f64;
-                let map = tallies[replicate as usize].read(flux_lm);
-                Rest::Map(MapEnd { layout, map })
-            }
-        }
+    ) -> Option<MapEnd<'_, S>> {
+        let Self::Own { layout, tallies, photons, .. } = self else { return None };
+        let flux_lm = context.lights.flux_lm / *photons as f64;
+        Some(MapEnd { layout, map: tallies[replicate as usize].read(flux_lm) })
     }
 }
 
@@ -267,7 +223,7 @@ impl<S> Stored for PathEnd<S> {
 
     fn merge_from(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
         match self {
-            Self::Nothing | Self::Frozen(_) => Ok(()),
+            Self::Nothing => Ok(()),
             Self::Own { tallies, photons, .. } => {
                 from.add_count(photons)?;
                 tallies.as_mut_slice().merge_from(from)

@@ -1,8 +1,7 @@
 //! Start of a path: a sensor point or a pixel, and the quantity measured there.
 
 use crate::path::daylight::DaylightSearch;
-use crate::path::end::Rest;
-use crate::path::partition::Partition;
+use crate::path::end::MapEnd;
 use crate::path::sketch::{PixelSketch, ProbedLights};
 use crate::photon::caustics::CausticLookup;
 use crate::spectrum::Spectrum;
@@ -15,11 +14,10 @@ use quasilux_sampling::Sampler;
 pub(crate) struct Start<'p, S> {
     pub(crate) from: RayOrigin,
     pub(crate) measurement: Measurement,
-    pub(crate) rest: &'p Rest<'p, S>,
+    /// The map that it may end on.
+    pub(crate) map_end: Option<&'p MapEnd<'p, S>>,
     /// Light that it cannot find by itself.
     pub(crate) caustics: Option<CausticLookup<'p, S>>,
-    /// What photons leave to it.
-    pub(crate) partition: Option<&'p Partition>,
     /// What stands for the light that comes from diffuse surfaces to its first.
     pub(crate) virtual_lights: Option<&'p ProbedLights<'p, S>>,
     /// What is known of the pixel that it starts from.

@@ -5,10 +5,7 @@
 //! density cos / pi, so the light that arrives along it counts pi-fold. At each diffuse surface the
 //! light that comes there straight from the lights is estimated on the spot (next-event
 //! estimation), and the path goes on for the rest. A path may end on an illumination map instead:
-//! the map's value stands for the rest. Where the map is to be corrected, those that survive
-//! Russian roulette go on and take the difference to the map with them, weighted by how few they
-//! are: the map is a control variate, its elements cause no bias, and no light is lost with those
-//! that end.
+//! the map's value stands for the rest.
 //!
 //! Read on at `direct_light`, `map_end` (ends on maps) and `virtual_light` (what pixels get).
 
@@ -25,14 +22,11 @@ use crate::lights::images::ImageSamples;
 use crate::lights::{Asking, ChoiceWork, SunChoice};
 use crate::path::contribution::PathContribution;
 use crate::path::daylight::Daylight;
-use crate::path::end::Rest;
-use crate::path::lobes::{self, Met};
-use crate::path::partition::{Partition, PartitionWeights};
+use crate::path::end::MapEnd;
 use crate::path::russian_roulette::{CERTAIN_BOUNCES, russian_roulette_factor};
 use crate::path::sketch::{PixelSketch, ProbedLights};
 use crate::path::start::{Measurement, Start};
 use crate::path::subpath_weights::product;
-use crate::path::vertex_record::VertexRecord;
 use crate::photon::caustics::CausticLookup;
 use crate::photon::virtual_lights::Sums;
 use crate::purpose::Purpose;
@@ -51,26 +45,19 @@ pub(crate) struct PathResult<S> {
     pub(crate) found: PathContribution<S>,
     /// How many coordinates it used.
     pub(crate) dimensions: u32,
-    /// Where it might have ended on a map, if it was to record that.
-    pub(crate) records: Vec<VertexRecord<S>>,
-    /// Its rays, but for those that ask for light.
-    pub(crate) flights: u32,
 }
 
 /// A path on its way.
 pub(crate) struct Path<'p, S> {
     /// Its number among those that travel together.
     number: u32,
-    rest: &'p Rest<'p, S>,
+    map_end: Option<&'p MapEnd<'p, S>>,
     caustics: Option<CausticLookup<'p, S>>,
-    partition: Option<&'p Partition>,
     /// What finds the light at its first surface beside it; `None` past that, where they do not.
     virtual_lights: Option<&'p ProbedLights<'p, S>>,
     /// Whether its last vertex has asked them.
     has_asked_virtual: bool,
     pixel: Option<&'p PixelSketch>,
-    /// The parts that it is to find of the light at its first surface.
-    weights_of_paths: PartitionWeights,
     sampler: Sampler<'p>,
     from: RayOrigin,
     /// Unit direction in which it goes on.
@@ -100,8 +87,6 @@ pub(crate) struct Path<'p, S> {
     /// From the point-like lights at its start.
     pointlikes: S,
     found: PathContribution<S>,
-    records: Vec<VertexRecord<S>>,
-    flights: u32,
 }
 
 /// What the paths that travel together ask of the lights, with working space.
@@ -134,8 +119,6 @@ struct Scattering<'w, S> {
     /// Reflections before this one.
     bounces: u32,
     surface: &'w Surface<'w, S>,
-    /// Its throughput times the albedo.
-    goes_on: S,
     onward: Onward,
 }
 
@@ -148,7 +131,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
         start: Start<'p, S>,
         work: &mut PathWork<S>,
     ) -> Self {
-        let Start { from, measurement, rest, caustics, partition, virtual_lights, .. } = start;
+        let Start { from, measurement, map_end, caustics, virtual_lights, .. } = start;
         let Start { pixel, daylight, mut sampler, .. } = start;
         let (direction, pdf_sr, beta) = match measurement {
             Measurement::Illuminance { n, .. } => {
@@ -160,13 +143,11 @@ impl<'p, S: Spectrum> Path<'p, S> {
         };
         let mut path = Self {
             number,
-            rest,
+            map_end,
             caustics,
-            partition,
             virtual_lights,
             has_asked_virtual: false,
             pixel,
-            weights_of_paths: PartitionWeights::ALL,
             sampler,
             from,
             direction,
@@ -183,8 +164,6 @@ impl<'p, S: Spectrum> Path<'p, S> {
             arrived: S::black(),
             pointlikes: S::black(),
             found: PathContribution::default(),
-            records: Vec::new(),
-            flights: 0,
         };
         if let Measurement::Illuminance { n, tests_pointlikes } = measurement {
             path.sample_direct_at_start(context, n, tests_pointlikes, work);
@@ -211,7 +190,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
         self.sample_direct_area_luminaires(context, &vertex, work);
         self.sample_direct_outside(context, &vertex, work);
         self.asked_outside =
-            self.pdf_sr.and_then(|pdf_sr| AskedOutside::new(context, &vertex, pdf_sr, None));
+            self.pdf_sr.and_then(|pdf_sr| AskedOutside::new(context, &vertex, pdf_sr));
         let pdf_sr = vertex.pdf_sr(self.direction);
         self.pdf_sr = Some(pdf_sr);
         self.specular_way = self.specular_way(context, pdf_sr);
@@ -240,11 +219,9 @@ impl<'p, S: Spectrum> Path<'p, S> {
     /// Light that the path asked for has arrived where it asked, after this many mirrors and panes.
     fn receive(&mut self, light: S, bounces: u32) {
         if bounces == 0 {
-            self.arrived +=
-                light * if self.bounces_asked == 1 { self.weights_of_paths.first } else { 1.0 };
+            self.arrived += light;
         } else {
-            let share = if self.bounces_asked == 1 { self.weights_of_paths.rest } else { 1.0 };
-            self.found.add(self.bounces_asked + bounces, light * share);
+            self.found.add(self.bounces_asked + bounces, light);
         }
     }
 
@@ -267,14 +244,9 @@ impl<'p, S: Spectrum> Path<'p, S> {
         work: &mut PathWork<S>,
     ) -> bool {
         self.add_arrived();
-        self.flights += 1;
-        let before = self.found.indirect;
         match at {
             Some(at) => self.add_emitted(context, bounces, at),
             None => self.add_outside(context, bounces),
-        }
-        if let Some(record) = self.records.last_mut() {
-            record.begin([before, self.found.indirect]);
         }
         let Some(at) = at else { return false };
         self.note_openings(context, at);
@@ -296,13 +268,13 @@ impl<'p, S: Spectrum> Path<'p, S> {
             return false;
         }
         let onward = self
-            .end_on_map(context, bounces, at, albedo)
+            .end_on_map(context, bounces, at)
             .unwrap_or_else(|| self.russian_roulette(context, bounces, albedo));
         let seeks_emitted = onward.emitted != 0.0 && context.lights.can_be_met();
         if onward.everything == 0.0 && !seeks_emitted {
             return false;
         }
-        self.scatter(context, at, &Scattering { bounces, surface, goes_on, onward })
+        self.scatter(context, at, &Scattering { bounces, surface, onward })
     }
 
     /// Next-event estimation at a surface: the light that comes there straight from the lights, and
@@ -319,11 +291,6 @@ impl<'p, S: Spectrum> Path<'p, S> {
         // Past mirrors alone, paths find nothing but facets that emit and what is outside.
         self.found.reflected |= !bsdf.is_specular() || context.lights.can_be_met();
         self.bounces_asked = bounces + 1;
-        if let (0, Some(partition)) = (bounces, self.partition)
-            && bsdf.keeps_illuminance()
-        {
-            self.weights_of_paths = self.weights_at(partition, at);
-        }
         if !bsdf.is_specular() {
             self.sample_direct_all(context, bounces + 1, at, surface, work);
         }
@@ -340,27 +307,16 @@ impl<'p, S: Spectrum> Path<'p, S> {
         at: &Interaction,
         scattering: &Scattering<'_, S>,
     ) -> bool {
-        let &Scattering { bounces, surface, goes_on, ref onward } = scattering;
+        let &Scattering { bounces, surface, ref onward } = scattering;
         let &Surface { bsdf, frame, wo, .. } = surface;
         let bounce = Purpose::Bounce { surface: bounces + 1 };
         let next = context.draw(&mut self.sampler, bounce, |sampler| {
             bsdf.sample(wo, at.front, TransportMode::Radiance, sampler)
         });
         let Some(next) = next else { return false };
-        if let (false, Some(pdf_sr)) = (bsdf.keeps_illuminance(), next.pdf_sr) {
-            self.found.lobes.meet(
-                &context.lights.pointlikes,
-                &Met {
-                    at,
-                    transmits: bsdf.transmits(),
-                    goes_on: goes_on.luminance() * onward.everything,
-                    sharpness: lobes::sharpness(bsdf, wo, at.front, pdf_sr),
-                },
-            );
-        }
         self.note_specular_way(context, at, &next);
         self.note_side(context, &next);
-        self.note_asked_outside(context, at, surface, bounces, &next);
+        self.note_asked_outside(context, at, surface, &next);
         let world = &context.world;
         self.from =
             if next.wi.z > 0.0 { world.ray_origin(at) } else { world.ray_origin_behind(at) };
@@ -378,15 +334,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
     pub(crate) fn end(&mut self) -> PathResult<S> {
         self.add_arrived();
         self.found.add(0, self.pointlikes);
-        for record in &mut self.records {
-            record.end(self.found.indirect);
-        }
-        PathResult {
-            found: std::mem::take(&mut self.found),
-            dimensions: self.sampler.used(),
-            records: std::mem::take(&mut self.records),
-            flights: self.flights,
-        }
+        PathResult { found: std::mem::take(&mut self.found), dimensions: self.sampler.used() }
     }
 
     /// Gives it up on its way.
@@ -400,36 +348,19 @@ impl<'p, S: Spectrum> Path<'p, S> {
         Vertex::on(&context.world, at, &surface, self.beta).weight(at.n)
     }
 
-    /// The parts of the light at its first surface that it is to find beside photons.
-    fn weights_at(&self, partition: &Partition, at: &Interaction) -> PartitionWeights {
-        let cos_there = -at.n.dot(self.direction);
-        let pdf_m2 = |pdf_sr| pdf_sr * cos_there / (at.distance_m * at.distance_m);
-        let share =
-            |pdf_sr| partition.path_weights(pdf_m2(pdf_sr), partition.density(at.position, at.n));
-        self.pdf_sr.map_or(PartitionWeights::ALL, share)
-    }
-
     /// Adds the light at a surface that no path finds.
     fn add_caustics(&mut self, context: &Context<'_, S>, bounces: u32, at: &Interaction) {
         let Some(caustics) = self.caustics else { return };
         let most = context.max_bounces.map_or(u32::MAX, |most| most - bounces - 1);
         let to_start = self.weight(context, at);
-        let share = if bounces == 0 { self.weights_of_paths.rest } else { 1.0 };
         for term in caustics.illuminances_lx(at, most) {
-            let lx = term.illuminance_lx * share;
-            self.found.add(bounces + 1 + term.bounces, to_start * lx);
+            self.found.add(bounces + 1 + term.bounces, to_start * term.illuminance_lx);
         }
     }
 
-    /// Where photons are connected to the sensor, it takes along from its first surface what they
-    /// leave to it. Else Russian roulette after the first bounces, by the albedo of the channel
-    /// that is left strongest, so that the weight of a survivor never grows in it and stays bounded
-    /// in all.
+    /// Russian roulette after the first bounces, by the albedo of the channel that is left
+    /// strongest, so that the weight of a survivor never grows in it and stays bounded in all.
     fn russian_roulette(&mut self, context: &Context<'_, S>, bounces: u32, albedo: f64) -> Onward {
-        if bounces == 0 && self.weights_of_paths != PartitionWeights::ALL {
-            let PartitionWeights { first, rest } = self.weights_of_paths;
-            return Onward { emitted: first, past_panes: rest, everything: rest };
-        }
         if bounces < CERTAIN_BOUNCES {
             return Onward::ALL;
         }
@@ -459,9 +390,6 @@ impl<'p, S: Spectrum> Path<'p, S> {
             }),
             None => self.asked_past_specular(context, at),
         };
-        if bounces > 0 && asked.is_none() {
-            self.found.specular_hits.push(context.world.facet(at).material);
-        }
         let Asked { pdf_m2, inverse_of_direction_m2 } = asked.unwrap_or_default();
         let ratio = product(pdf_m2, inverse_of_direction_m2);
         let weight = 1.0 / (1.0 + ratio * ratio);

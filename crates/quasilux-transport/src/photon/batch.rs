@@ -3,7 +3,7 @@
 use crate::context::{Context, Stream};
 use crate::photon::counts::PhotonCounts;
 use crate::photon::order::{PhotonOrder, WAVES_PER_FIELD, Waves};
-use crate::photon::receiver::{PhotonReceiver, ReceiverCounts};
+use crate::photon::receiver::PhotonReceiver;
 use crate::photon::trace::{Lead, Source, trace_photon};
 use crate::photon::wave::{PhotonWave, Wave};
 use crate::spectrum::Spectrum;
@@ -146,10 +146,7 @@ impl<'b, 'c, S: Spectrum> BatchWaves<'b, 'c, S> {
             let wave = Wave { points, indices, lead: *lead };
             space.trace(self.context, wave, &mut receiver, &mut counts);
         }
-        let ReceiverCounts { rays, invalid } = receiver.finish();
-        counts.connections = rays;
-        counts.rays += rays;
-        counts.invalid += invalid;
+        counts.invalid += receiver.finish();
         counts
     }
 }

@@ -34,8 +34,6 @@ pub(crate) struct PhotonCounts {
     /// or too large to be counted.
     pub(crate) invalid: u64,
     pub(crate) rays: u64,
-    /// Rays among them that connect photons to sensors.
-    pub(crate) connections: u64,
     /// Surfaces that photons came to.
     pub(crate) events: u64,
     /// Coordinates that each of them used, children of splits by themselves.
@@ -47,8 +45,8 @@ impl PhotonCounts {
     /// What they cost, without where their flux went: those from lit cells do not carry all of it.
     pub(crate) fn apart_from_flux(self) -> Self {
         let trapped = self.trapped + self.endless;
-        let Self { begun, invalid, rays, connections, events, dimensions, .. } = self;
-        Self { begun, trapped, invalid, rays, connections, events, dimensions, ..Self::default() }
+        let Self { begun, invalid, rays, events, dimensions, .. } = self;
+        Self { begun, trapped, invalid, rays, events, dimensions, ..Self::default() }
     }
 
     /// Flux of some quanta, as a share of all that was emitted.
@@ -92,7 +90,6 @@ impl Sums for PhotonCounts {
         add_count(&mut self.trapped, other.trapped)?;
         add_count(&mut self.invalid, other.invalid)?;
         add_count(&mut self.rays, other.rays)?;
-        add_count(&mut self.connections, other.connections)?;
         add_count(&mut self.events, other.events)?;
         histogram::checked_add(&mut self.dimensions, &other.dimensions)
     }

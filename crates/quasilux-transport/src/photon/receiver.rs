@@ -1,4 +1,4 @@
-//! Photon receivers: the interface of sensors, maps and connections to photons in flight.
+//! Photon receivers: the interface of sensors and maps to photons in flight.
 
 use crate::lights::images::LightPathClass;
 use crate::world::Interaction;
@@ -17,7 +17,7 @@ pub(crate) struct SeenPhoton<S> {
     pub(crate) specular_class: Option<LightPathClass>,
 }
 
-/// Sensors, maps and connections that see photons on their way.
+/// Sensors and maps that see photons on their way.
 pub(crate) trait PhotonReceiver<S> {
     /// Whether photons end where [`LightPathClass::Found`] begins: nobody looks at them further.
     const SPECULAR_ONLY: bool = false;
@@ -37,22 +37,14 @@ pub(crate) trait PhotonReceiver<S> {
         let _ = (at, photon);
     }
 
-    /// Nothing more is to come.
-    fn finish(self) -> ReceiverCounts
+    /// Nothing more is to come; how many contributions were not finite, negative or too large to be
+    /// counted.
+    fn finish(self) -> u64
     where
         Self: Sized,
     {
-        ReceiverCounts::default()
+        0
     }
-}
-
-/// Work of a receiver, and contributions that it refused.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct ReceiverCounts {
-    /// Rays that it traced itself.
-    pub(crate) rays: u64,
-    /// Contributions that were not finite, negative or too large to be counted.
-    pub(crate) invalid: u64,
 }
 
 /// The end of a flight.
@@ -88,7 +80,7 @@ impl<S, R: PhotonReceiver<S>> PhotonReceiver<S> for Option<R> {
         }
     }
 
-    fn finish(self) -> ReceiverCounts {
-        self.map_or_else(ReceiverCounts::default, R::finish)
+    fn finish(self) -> u64 {
+        self.map_or(0, R::finish)
     }
 }

@@ -4,7 +4,6 @@ use crate::codec::{Reader, StateError};
 use crate::context::Context;
 use crate::estimator::block::BlockFrame;
 use crate::estimator::new_estimator;
-use crate::estimator::witness::Witness;
 use crate::prepared::PreparedScene;
 use crate::settings::Settings;
 use crate::spectrum::{Spectrum, is_grey};
@@ -55,7 +54,6 @@ fn serve<S: Spectrum, T>(
     let context = Context::<S>::new(prepared, settings);
     let mut nobody = ();
     let mut estimator = new_estimator(&context, scene, settings, &mut Watch::new(&mut nobody));
-    let mut witness = Witness::new(&context, scene, settings);
     let decisions = estimator.decisions().digest;
     let mut trace = |frame: &[u8], block: Range<u64>| {
         let mut from = Reader::new(frame);
@@ -64,12 +62,7 @@ fn serve<S: Spectrum, T>(
         }
         let frame: BlockFrame = from.value()?;
         from.end()?;
-        match (&frame, &mut witness) {
-            (BlockFrame::WitnessPhotons | BlockFrame::WitnessPaths, Some(witness)) => {
-                witness.trace_block(&frame, block)
-            }
-            _ => estimator.trace_block(&frame, block),
-        }
+        estimator.trace_block(&frame, block)
     };
     work(&mut BlockTracer { trace: &mut trace })
 }

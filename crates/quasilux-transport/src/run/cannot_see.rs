@@ -17,9 +17,7 @@ pub(crate) fn cannot_see<S: Spectrum>(
     match settings.estimator {
         EstimatorKind::Photon => of_photons(scene),
         EstimatorKind::Auto | EstimatorKind::Bidirectional => Vec::new(),
-        EstimatorKind::Path | EstimatorKind::Selected | EstimatorKind::BidirectionalMap => {
-            of_paths(context)
-        }
+        EstimatorKind::Path | EstimatorKind::BidirectionalMap => of_paths(context),
     }
 }
 

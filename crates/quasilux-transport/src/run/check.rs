@@ -45,39 +45,22 @@ pub enum CheckError {
         /// Name of the estimator.
         estimator: &'static str,
     },
-    /// Other estimators have no use for such photons.
-    #[error("connections = \"on\" is for the estimator \"selected\", not for \"{estimator}\"")]
-    NothingToJoin {
-        /// Name of the estimator.
-        estimator: &'static str,
-    },
     /// No photon of these is split or ended.
     #[error(
-        "importance = \"on\" is for photons that sensors count, that are connected to them, or \
-         that fill growing maps: there are none with the estimator \"{estimator}\"{why}"
+        "importance = \"on\" is for photons that sensors count, or that fill illumination maps: \
+         there are none with the estimator \"{estimator}\""
     )]
     NothingToGuide {
         /// Name of the estimator.
         estimator: &'static str,
-        /// What else keeps photons from being connected.
-        why: &'static str,
     },
-    /// Photons that are connected to sensors leave the lights, not lit places.
-    #[error(
-        "first_shot = \"on\" is for the photons of illumination maps, and connections = \"on\" \
-         leaves none"
-    )]
-    FirstShotWithConnections,
     /// Nothing can be left out of a map that is not there.
     #[error(
-        "map_dimensions is for illumination maps: there is none with the estimator \"{estimator}\" \
-         and connections = \"{connections}\""
+        "map_dimensions is for illumination maps: there is none with the estimator \"{estimator}\""
     )]
     NoMapToLeaveOutOf {
         /// Name of the estimator.
         estimator: &'static str,
-        /// Name of the switch.
-        connections: &'static str,
     },
     /// There is no light at all.
     #[error("the lights of the scene emit nothing")]
@@ -130,43 +113,16 @@ fn check_ranges(settings: &Settings) -> Result<(), CheckError> {
 
 /// Whether each switch that is on has something to switch.
 fn check_switches(settings: &Settings) -> Result<(), CheckError> {
-    let ends_on_map = settings.estimator.is_selected_by_pilots()
-        || settings.estimator == EstimatorKind::BidirectionalMap;
+    let ends_on_map = settings.estimator == EstimatorKind::BidirectionalMap;
     if settings.first_shot == Switch::On && !ends_on_map {
         return Err(CheckError::FirstShotWithoutMap { estimator: settings.estimator.name() });
     }
-    if settings.first_shot == Switch::On && settings.connections == Switch::On {
-        return Err(CheckError::FirstShotWithConnections);
+    if settings.map_dimensions.is_some() && !ends_on_map {
+        return Err(CheckError::NoMapToLeaveOutOf { estimator: settings.estimator.name() });
     }
-    let has_map = match settings.estimator {
-        EstimatorKind::Auto
-        | EstimatorKind::Path
-        | EstimatorKind::Photon
-        | EstimatorKind::Bidirectional => false,
-        EstimatorKind::Selected => settings.connections() != Some(true),
-        EstimatorKind::BidirectionalMap => true,
-    };
-    if settings.map_dimensions.is_some() && !has_map {
-        return Err(CheckError::NoMapToLeaveOutOf {
-            estimator: settings.estimator.name(),
-            connections: settings.connections.name(),
-        });
-    }
-    let is_steerable = match settings.estimator {
-        EstimatorKind::Auto | EstimatorKind::Path | EstimatorKind::Bidirectional => false,
-        EstimatorKind::Selected => settings.connections() != Some(false),
-        EstimatorKind::Photon | EstimatorKind::BidirectionalMap => true,
-    };
-    if settings.importance == Switch::On && !is_steerable {
-        let why = match settings.connections {
-            _ if !settings.estimator.is_selected_by_pilots() => "",
-            Switch::Off => " and connections = \"off\"",
-            _ => " on a map that first_shot or map_dimensions ask for",
-        };
-        return Err(CheckError::NothingToGuide { estimator: settings.estimator.name(), why });
-    }
-    if settings.connections == Switch::On && !settings.estimator.is_selected_by_pilots() {
-        return Err(CheckError::NothingToJoin { estimator: settings.estimator.name() });
+    let guides_photons = ends_on_map || settings.estimator == EstimatorKind::Photon;
+    if settings.importance == Switch::On && !guides_photons {
+        return Err(CheckError::NothingToGuide { estimator: settings.estimator.name() });
     }
     Ok(())
 }
@@ -232,10 +188,7 @@ fn caveats_of_values(scene: &Scene, settings: &Settings) -> Vec<String> {
                 )
             }));
         }
-        EstimatorKind::Auto
-        | EstimatorKind::Path
-        | EstimatorKind::Bidirectional
-        | EstimatorKind::Selected => {}
+        EstimatorKind::Auto | EstimatorKind::Path | EstimatorKind::Bidirectional => {}
     }
     caveats
 }

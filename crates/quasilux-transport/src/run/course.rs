@@ -79,7 +79,6 @@ fn has_shape(estimates: &Estimates, scene: &Scene, settings: &Settings) -> bool 
             direct_lx,
             resolved,
             missed,
-            contradicted,
             samples,
             terms: own,
             unseen,
@@ -91,7 +90,7 @@ fn has_shape(estimates: &Estimates, scene: &Scene, settings: &Settings) -> bool 
             |term: &TermEstimates| are_rows(&term.replicate_lx) && term.resolved.len() == points;
         are_rows(replicate_lx)
             && [direct_lx.len(), samples.len()] == [points; 2]
-            && [resolved, missed, contradicted].iter().all(|flags| flags.len() == points)
+            && [resolved, missed].iter().all(|flags| flags.len() == points)
             && unseen.as_ref().is_none_or(|unseen| unseen.has_points(points))
             && own.len() == terms
             && own.iter().all(is_term)
@@ -123,7 +122,6 @@ mod tests {
                 direct_lx: vec![0.5; 2],
                 resolved: vec![true; 2],
                 missed: vec![false; 2],
-                contradicted: vec![false; 2],
                 samples: vec![16; 2],
                 terms: vec![term; terms],
                 unseen: Some(UnseenLight::unknown(2)),

@@ -4,15 +4,10 @@
 //! What is only known when photons have landed is counted as the most that it may be: maps as if
 //! every landing met an element of its own, cells of surveys as if all were there.
 
-use crate::estimator::control_variate::MAX_PHOTONS;
-use crate::estimator::witness;
 use crate::importance::{MAX_NODES, Node};
 use crate::lights::{coarse_tables_bytes, tables_bytes};
-use crate::path::frozen_map;
 use crate::path::sections::PathSums;
-use crate::photon::map::{
-    COARSE_ELEMENTS_ACROSS, COARSEST_ELEMENTS_ACROSS, ELEMENTS_ACROSS, MAX_NEW_ELEMENTS,
-};
+use crate::photon::map::{COARSE_ELEMENTS_ACROSS, ELEMENTS_ACROSS, MAX_NEW_ELEMENTS};
 use crate::run::pixels::{MAX_SETS, PHOTONS};
 use crate::settings::{EstimatorKind, Reconstruction, Settings, Switch};
 use crate::spectrum::{Spectrum, is_grey};
@@ -34,11 +29,6 @@ const VIRTUAL_LIGHTS: u64 = 4 * PHOTONS;
 /// Cells of a survey at most, and what guides photons in each of them.
 const CELLS: u64 = 1 << 13;
 const GUIDE_BYTES: u64 = (MAX_NODES * size_of::<Node>()) as u64;
-/// Light that leaves a cell: its sum and its mean, straight and other.
-const LEAVING_BYTES: u64 = 96;
-/// What a sensor point sees of a cell, and the most of all of that.
-const VIEW_BYTES: u64 = 8;
-const MAX_VIEWS_BYTES: u64 = 128 << 20;
 /// Of a counter of a map, and how many of them one landing takes memory for.
 const COUNTER_BYTES: u64 = 4;
 const COUNTERS_OF_A_LANDING: u64 = 256;
@@ -55,7 +45,7 @@ pub struct MemoryNeed {
     pub sums_bytes: u64,
     /// Cells of surveys, at most.
     pub cells_bytes: u64,
-    /// Illumination maps that are full, or one that is frozen.
+    /// Illumination maps that are full.
     pub maps_bytes: u64,
     /// What a sample adds to them at most, while they are not.
     pub maps_bytes_a_sample: u64,
@@ -80,7 +70,7 @@ impl MemoryNeed {
                 .saturating_add(tables_bytes(emitting_triangles(scene), scene.mesh.bounds()))
                 .saturating_add(coarse_tables_bytes(&scene.lights)),
             sums_bytes: points.saturating_mul(point_bytes(settings)),
-            cells_bytes: cells_bytes(settings, points),
+            cells_bytes: cells_bytes(settings),
             pictures_bytes: total(pixels)
                 .saturating_mul(PIXEL_BYTES)
                 .saturating_add(virtual_lights_bytes(scene, settings)),
@@ -88,12 +78,10 @@ impl MemoryNeed {
         };
         let maps = match settings.estimator {
             EstimatorKind::BidirectionalMap => u64::from(settings.effective_replicates()),
-            kind if kind.is_selected_by_pilots() && settings.connections() != Some(true) => 1,
             EstimatorKind::Auto
             | EstimatorKind::Photon
             | EstimatorKind::Path
-            | EstimatorKind::Bidirectional
-            | EstimatorKind::Selected => return need,
+            | EstimatorKind::Bidirectional => return need,
         };
         let channels = if is_grey(scene) { f64::CHANNELS } else { Rgb::CHANNELS } as u64;
         let moments = if settings.map_reconstruction == Reconstruction::Linear { 3 } else { 1 };
@@ -102,14 +90,6 @@ impl MemoryNeed {
         let full = |sides: u64, layers: u64| {
             product([sides, moments, channels, layers, COUNTER_BYTES, maps])
         };
-        if settings.estimator.is_selected_by_pilots() {
-            // Frozen before the first sample.
-            let sides = elements(scene, settings, COARSEST_ELEMENTS_ACROSS, 0).saturating_mul(2);
-            let layers = frozen_map::layers(settings.max_bounces, settings.list_terms, sides);
-            let full = full(sides, layers.into());
-            let maps_bytes = full.min(of_landing.saturating_mul(MAX_PHOTONS));
-            return Self { maps_bytes, maps_bytes_a_sample: maps_bytes, ..need };
-        }
         let (across, split) = match settings.map_adaptive {
             true => (COARSE_ELEMENTS_ACROSS, MAX_NEW_ELEMENTS),
             false => (ELEMENTS_ACROSS, 0),
@@ -144,15 +124,11 @@ fn point_bytes(settings: &Settings) -> u64 {
     let of_terms = if settings.list_terms > 0 { values * sum } else { 0 };
     let replicates = u64::from(settings.effective_replicates());
     let sums = replicates.saturating_mul(size_of::<PathSums>() as u64 + of_terms);
-    let joined = match settings.estimator {
-        kind if kind.is_selected_by_pilots() => replicates.saturating_mul(2 * values * sum),
-        _ => 0,
-    };
     let figures = replicates.saturating_mul(values * VALUE_BYTES);
-    let own = [sums, joined, figures];
+    let own = [sums, figures];
     let watched = match settings.estimator {
         kind if kind.is_bounded() => 0,
-        _ => SCORES_BYTES + witness::POINT_BYTES,
+        _ => SCORES_BYTES,
     };
     total(own).saturating_add(watched + PLACE_BYTES)
 }
@@ -174,20 +150,11 @@ fn elements(scene: &Scene, settings: &Settings, across: f64, split: u64) -> u64 
     (cut as u64).saturating_add(split).min(settings.map_elements.max(triangles))
 }
 
-/// What a survey knows of the cells of the scene, and what photons that are connected to sensors
-/// bring to them.
-fn cells_bytes(settings: &Settings, points: u64) -> u64 {
-    let photons = settings.estimator != EstimatorKind::Path;
-    let guides =
-        if photons && settings.importance != Switch::Off { CELLS * GUIDE_BYTES } else { 0 };
-    if !settings.estimator.is_selected_by_pilots() || settings.connections() == Some(false) {
-        return guides;
-    }
-    let slots = 1 + u64::from(settings.list_terms.max(1));
-    let replicates = u64::from(settings.effective_replicates());
-    let leaving = product([CELLS, LEAVING_BYTES, slots, replicates]) / 2;
-    let views = product([points, CELLS, VIEW_BYTES]).min(MAX_VIEWS_BYTES);
-    total([guides, leaving, views])
+/// What guides photons in the cells of a survey.
+fn cells_bytes(settings: &Settings) -> u64 {
+    let guides_photons =
+        matches!(settings.estimator, EstimatorKind::Photon | EstimatorKind::BidirectionalMap);
+    if guides_photons && settings.importance != Switch::Off { CELLS * GUIDE_BYTES } else { 0 }
 }
 
 /// Virtual lights in all replicates: a set for each path of a pixel, up to a number past which

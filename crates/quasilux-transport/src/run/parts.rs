@@ -8,11 +8,10 @@
 
 use crate::codec::{Reader, StateError, Writer};
 use crate::context::Context;
-use crate::estimator::witness::Witness;
 use crate::estimator::{Estimator, new_estimator};
 use crate::prepared::PreparedScene;
 use crate::run::pictures::add_pictures;
-use crate::run::simulate::{Look, Looking, look};
+use crate::run::simulate::{Look, look};
 use crate::settings::Settings;
 use crate::spectrum::{Spectrum, is_grey};
 use crate::stats::decisions::Decisions;
@@ -174,17 +173,9 @@ fn put_together<'p, S: Spectrum>(
             .map_err(|error| MergeError::Part { part: part.number, error })?;
     }
     estimator.complete_at(samples);
-    let mut witness = Witness::new(&context, scene, settings);
     let miss_probability = 1.0 - settings.confidence;
-    let Look { mut estimates, .. } = look(
-        &context,
-        scene,
-        settings,
-        estimator.as_ref(),
-        &mut witness,
-        Looking { miss_probability, watch },
-    );
-    drop(witness);
+    let Look { mut estimates, .. } =
+        look(&context, scene, settings, estimator.as_ref(), miss_probability);
     estimates.decisions = decisions;
     drop(estimator);
     add_pictures(&context, scene, settings, &mut estimates, watch);

@@ -13,7 +13,6 @@
 
 use crate::context::{Context, Stream};
 use crate::path::contribution::PathContribution;
-use crate::path::end::Rest;
 use crate::path::sections::WorkCounts;
 use crate::path::sketch::{Block, Sketch, SketchWork};
 use crate::path::start::{Measurement, Start};
@@ -395,12 +394,11 @@ impl<'a, S: Spectrum> Darkroom<'a, S> {
         let direction = self.view.direction([x + u, y + v]);
         Start {
             caustics: self.caustics.as_ref().and_then(|caustics| caustics.map(replicate)),
-            partition: None,
             virtual_lights: None,
             pixel: None,
             from: self.context.world.ray_origin_of_sensor(self.view.position, direction),
             measurement: Measurement::Luminance { direction },
-            rest: &Rest::Path,
+            map_end: None,
             daylight: None,
             sampler,
         }

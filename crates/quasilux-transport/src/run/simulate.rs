@@ -3,7 +3,6 @@
 
 use crate::codec::{Reader, StateError};
 use crate::context::Context;
-use crate::estimator::witness::{self, Witness};
 use crate::estimator::{Estimator, new_estimator};
 use crate::prepared::PreparedScene;
 use crate::run::cannot_see::cannot_see;
@@ -128,9 +127,7 @@ fn run<S: Spectrum>(
     state: Option<&[u8]>,
     mut watch: Watch<'_>,
 ) -> Result<Option<Estimates>, StateError> {
-    let mut witness = Witness::new(context, scene, settings);
-    let own_share = if witness.is_some() { 1.0 / (1.0 + witness::SHARE) } else { 1.0 };
-    watch.limit_rays(settings.max_rays.map(|most| (own_share * most as f64) as u64));
+    watch.limit_rays(settings.max_rays);
     let mut estimator = new_estimator(context, scene, settings, &mut watch);
     let first = estimator.first_checkpoint();
     // Without sensors there is nothing to wait for.
@@ -152,7 +149,7 @@ fn run<S: Spectrum>(
         }
     }
     let steps = Steps { context, scene, settings, decisions: &decisions };
-    steps.advance_to_the_end(estimator.as_mut(), &mut witness, &mut course, &mut watch);
+    steps.advance_to_the_end(estimator.as_mut(), &mut course, &mut watch);
     drop(estimator);
     if watch.has_failed() {
         return Ok(None);
@@ -178,7 +175,6 @@ impl<S: Spectrum> Steps<'_, '_, S> {
     fn advance_to_the_end(
         &self,
         estimator: &mut (dyn Estimator + '_),
-        witness: &mut Option<Witness<'_, S>>,
         course: &mut Course,
         watch: &mut Watch<'_>,
     ) {
@@ -192,15 +188,8 @@ impl<S: Spectrum> Steps<'_, '_, S> {
             if !estimator.advance(course.schedule.next_checkpoint(), watch) {
                 break;
             }
-            let miss_probability = stopping.miss_probability;
-            let Look { mut estimates, standing } = look(
-                context,
-                scene,
-                settings,
-                &*estimator,
-                witness,
-                Looking { miss_probability, watch },
-            );
+            let Look { mut estimates, standing } =
+                look(context, scene, settings, &*estimator, stopping.miss_probability);
             if watch.has_failed() {
                 break;
             }
@@ -266,28 +255,17 @@ pub(crate) struct Look {
     pub(crate) standing: Standing,
 }
 
-/// What a look needs beside the sums.
-pub(crate) struct Looking<'l, 'o> {
-    /// Of the interval of each target.
-    pub(crate) miss_probability: f64,
-    pub(crate) watch: &'l mut Watch<'o>,
-}
-
-/// Looks at the sums of a run.
+/// Looks at the sums of a run, where the interval of each target may miss with this probability.
 pub(crate) fn look<S: Spectrum>(
     context: &Context<'_, S>,
     scene: &Scene,
     settings: &Settings,
     estimator: &(dyn Estimator + '_),
-    witness: &mut Option<Witness<'_, S>>,
-    Looking { miss_probability, watch }: Looking<'_, '_>,
+    miss_probability: f64,
 ) -> Look {
     let mut estimates = estimator.estimates();
     estimates.confidence = settings.confidence;
     estimates.miss_probability = miss_probability;
-    if let Some(witness) = witness {
-        hear(witness, &mut estimates, watch);
-    }
     estimates.biased |= is_biased(scene, settings);
     estimates.warnings.extend(caveats(scene, settings));
     estimates.warnings.extend(context.warning.clone());
@@ -325,21 +303,6 @@ pub(crate) fn look<S: Spectrum>(
     Look { estimates, standing }
 }
 
-/// Withdraws the intervals that the witness contradicts.
-fn hear<S: Spectrum>(
-    witness: &mut Witness<'_, S>,
-    estimates: &mut Estimates,
-    watch: &mut Watch<'_>,
-) {
-    witness.look(estimates.rays, watch);
-    estimates.rays += witness.rays();
-    let mut contradicted = witness.contradicts(&estimates.sensors).into_iter();
-    for sensor in &mut estimates.sensors {
-        let points = sensor.resolved.len();
-        sensor.withdraw(contradicted.by_ref().take(points).collect());
-    }
-}
-
 /// What a reader must know of the values of this checkpoint.
 fn warnings_of_values(estimates: &Estimates) -> Vec<String> {
     let mut warnings = Vec::new();
@@ -349,15 +312,7 @@ fn warnings_of_values(estimates: &Estimates) -> Vec<String> {
             estimates.invalid_contributions
         ));
     }
-    let contradicted = estimates.sensors.iter().flat_map(|sensor| &sensor.contradicted);
-    let contradicted = contradicted.filter(|contradicted| **contradicted).count() as u64;
-    if contradicted > 0 {
-        warnings.push(format!(
-            "at {contradicted} sensor points photons or paths that were traced apart from the \
-             estimate found more light than it: their values are too low, and have no interval"
-        ));
-    }
-    let unresolved = estimates.unresolved_points - contradicted.min(estimates.unresolved_points);
+    let unresolved = estimates.unresolved_points;
     if unresolved > 0 {
         warnings.push(format!(
             "at {unresolved} sensor points light may be that was not found: they may be dark or \

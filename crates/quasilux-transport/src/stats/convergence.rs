@@ -322,7 +322,6 @@ mod tests {
                     direct_lx: Vec::new(),
                     resolved: vec![true; 2],
                     missed: vec![false; 2],
-                    contradicted: vec![false; 2],
                     samples: vec![n.min(self.done), n],
                     terms: Vec::new(),
                     unseen: None,

@@ -3,8 +3,7 @@
 /// What surveys and pilots decided: a function of scene and settings.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Decisions {
-    /// Photons that are connected to the sensors for each path; `None` where paths go alone or end
-    /// on a map.
+    /// Light subpaths of an index, which all sensor points share; `None` of estimators without any.
     pub connected_photons: Option<u64>,
     /// Whether photons are split, ended and guided on their way.
     pub uses_importance: bool,

@@ -40,25 +40,9 @@ impl WeightSums {
     }
 }
 
-/// The candidate with the lowest cost, the first among equal ones; `None` without candidates.
-pub(crate) fn cheapest<T>(
-    candidates: impl IntoIterator<Item = T>,
-    cost: impl Fn(&T) -> f64,
-) -> Option<T> {
-    let priced = candidates.into_iter().map(|candidate| (cost(&candidate), candidate));
-    priced.min_by(|(a, _), (b, _)| a.total_cmp(b)).map(|(_, candidate)| candidate)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn the_first_of_the_cheapest_is_taken() {
-        let costs = [3.0, 1.0, f64::INFINITY, 1.0, f64::NAN];
-        assert_eq!(cheapest(0..5, |&i: &usize| costs[i]), Some(1));
-        assert_eq!(cheapest(0..0, |&i: &usize| costs[i]), None);
-    }
 
     /// Equal weights have the relative variance 1 / n; no weight has none.
     #[test]

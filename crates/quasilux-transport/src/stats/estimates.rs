@@ -69,9 +69,6 @@ pub struct SensorEstimates {
     /// Whether too few paths met light that is rare and bright, of narrow lobes or of facets over
     /// mirrors: such points are not resolved, either, but more paths are sure to help.
     pub missed: Vec<bool>,
-    /// Whether photons or paths of the witness found more light than the estimate, beyond chance:
-    /// such points are not resolved, either.
-    pub contradicted: Vec<bool>,
     /// Indices per replicate behind each point: fewer than of others where it reached its tolerance
     /// before.
     pub samples: Vec<u64>,
@@ -230,17 +227,6 @@ fn mean(lx: &[f64]) -> f64 {
 }
 
 impl SensorEstimates {
-    /// Withdraws the intervals of the points that a witness contradicts.
-    pub(crate) fn withdraw(&mut self, contradicted: Vec<bool>) {
-        let terms = self.terms.iter_mut().map(|term| &mut term.resolved);
-        for resolved in terms.chain([&mut self.resolved]) {
-            let known = resolved.iter_mut().zip(&contradicted);
-            known.for_each(|(resolved, contradicted)| *resolved &= !contradicted);
-        }
-        let known = self.contradicted.iter_mut().zip(contradicted);
-        known.for_each(|(known, contradicted)| *known |= contradicted);
-    }
-
     /// The figures of some of its points.
     pub(crate) fn part(&self, points: Range<usize>) -> Self {
         let columns = |rows: &[Vec<f64>]| -> Vec<Vec<f64>> {
@@ -255,7 +241,6 @@ impl SensorEstimates {
             direct_lx: self.direct_lx[points.clone()].to_vec(),
             resolved: self.resolved[points.clone()].to_vec(),
             missed: self.missed[points.clone()].to_vec(),
-            contradicted: self.contradicted[points.clone()].to_vec(),
             samples: self.samples[points.clone()].to_vec(),
             terms: self.terms.iter().map(term).collect(),
             unseen: self.unseen.as_ref().map(|unseen| unseen.part(points)),

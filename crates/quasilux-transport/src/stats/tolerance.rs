@@ -7,8 +7,7 @@ use crate::stats::interval::Interval;
 /// Paths or photons, all replicates together, that a point where nothing is found gets before a
 /// run may end without it.
 const MIN_TRIES: f64 = (1 << 14) as f64;
-/// The same where rare and bright light was missed, or where a witness found more light: that more
-/// paths will meet them is certain.
+/// The same where rare and bright light was missed: that more paths will meet it is certain.
 const MIN_TRIES_OF_MISSED: f64 = (1 << 20) as f64;
 
 /// How all targets stand at a checkpoint, in the order of their sensors.
@@ -57,10 +56,8 @@ impl Standing {
                     standing.add_points(figures, &points, &yardstick);
                 }
                 ToleranceOn::Summary => {
-                    let misses =
-                        [&figures.missed, &figures.contradicted].map(|of| of.contains(&true));
                     let resolved =
-                        unresolved == 0 || yardstick.had_a_chance(misses.contains(&true));
+                        unresolved == 0 || yardstick.had_a_chance(figures.missed.contains(&true));
                     let unseen_lx = estimates.unseen_of_average(sensor);
                     let target =
                         yardstick.target(&estimates.found_average(sensor), unseen_lx, resolved);
@@ -83,7 +80,7 @@ impl Standing {
         for (number, point) in points.iter().enumerate() {
             let unseen_lx = figures.unseen.as_ref().map(|unseen| unseen.point_lx[number]);
             let resolved = figures.resolved[number];
-            let missed = figures.missed[number] || figures.contradicted[number];
+            let missed = figures.missed[number];
             let target = yardstick.target(point, unseen_lx, resolved);
             let is_given_up = match resolved {
                 true => target.is_without_end() && yardstick.had_a_chance(false),
@@ -197,7 +194,6 @@ mod tests {
             direct_lx: vec![0.0; n],
             resolved: vec![true; n],
             missed: vec![false; n],
-            contradicted: vec![false; n],
             samples: vec![1 << 10; n],
             terms: Vec::new(),
             unseen: Some(unseen),

@@ -93,17 +93,6 @@ impl<'o> Watch<'o> {
         self.decisions = digest;
     }
 
-    /// Work that the observer neither sees nor stops, by the same workers.
-    pub(crate) fn aside<T>(&mut self, work: impl FnOnce(&mut Watch<'_>) -> T) -> T {
-        let mut nobody = ();
-        let mut aside = Watch::new(&mut nobody);
-        aside.decisions = self.decisions;
-        aside.workers = self.workers.as_mut().map(|workers| &mut **workers as &mut dyn Workers);
-        let outcome = work(&mut aside);
-        self.failed |= aside.failed;
-        outcome
-    }
-
     /// Whether workers left blocks out, so that the run has no result.
     pub(crate) fn has_failed(&self) -> bool {
         self.failed

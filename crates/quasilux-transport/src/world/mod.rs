@@ -278,12 +278,6 @@ impl<S: Spectrum> World<S> {
         })
     }
 
-    /// Whether maps hold the light of all surfaces but specular ones.
-    pub(crate) fn maps_all_that_scatters(&self) -> bool {
-        let mut bsdfs = self.facets.iter().map(|facet| self.bsdf_of(facet));
-        bsdfs.all(|bsdf| bsdf.is_specular() || bsdf.keeps_illuminance())
-    }
-
     /// Whether there are panes.
     pub(crate) fn has_panes(&self) -> bool {
         self.has_panes

@@ -57,7 +57,8 @@ fn is_each_point_that_of_a_limited_run(scene: &Scene, settings: &Settings) {
 
 #[test]
 fn a_point_that_is_done_is_as_in_a_run_that_ends_there() {
-    for estimator in [EstimatorKind::Path, EstimatorKind::Selected, EstimatorKind::BidirectionalMap]
+    for estimator in
+        [EstimatorKind::Path, EstimatorKind::Bidirectional, EstimatorKind::BidirectionalMap]
     {
         let settings = Settings { rel_tol: 0.06, ..settings(estimator) };
         is_each_point_that_of_a_limited_run(&screened(), &settings);
@@ -126,7 +127,7 @@ fn a_half_width_in_lx_is_enough() {
 #[test]
 fn rays_only_pick_the_last_checkpoint() {
     let scene = screened();
-    for estimator in [EstimatorKind::Path, EstimatorKind::Selected] {
+    for estimator in [EstimatorKind::Path, EstimatorKind::Bidirectional] {
         let never = Settings { rel_tol: 0.0, ..settings(estimator) };
         let limit = 1_000_000;
         let limited =

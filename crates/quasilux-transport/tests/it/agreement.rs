@@ -74,39 +74,11 @@ fn photons_and_paths_agree_bounce_by_bounce() {
     for max_bounces in [Some(0), Some(1), Some(2)] {
         let photons = run(&scene, EstimatorKind::Photon, max_bounces);
         for estimator in
-            [EstimatorKind::Path, EstimatorKind::Selected, EstimatorKind::BidirectionalMap]
+            [EstimatorKind::Path, EstimatorKind::Bidirectional, EstimatorKind::BidirectionalMap]
         {
             let paths = run(&scene, estimator, max_bounces);
             assert_agree(&photons, &paths, &format!("{estimator:?}, {max_bounces:?} bounces"));
         }
-    }
-}
-
-/// A map that is corrected knows bounces apart, where few are wanted, and else only how many it
-/// left out in all: either way paths that end on it find what they find alone.
-#[test]
-fn a_map_that_is_corrected_keeps_to_the_wanted_bounces() {
-    let scene = coloured_room_with_mirror();
-    for max_bounces in [Some(2), Some(3), Some(4), Some(17)] {
-        let found = |estimator, seed| {
-            let connections =
-                if estimator == EstimatorKind::Path { Switch::Auto } else { Switch::Off };
-            let settings = Settings {
-                estimator,
-                connections,
-                max_bounces,
-                seed,
-                rel_tol: 0.003,
-                ..Settings::default()
-            };
-            let estimates = simulate(&scene, &settings, &mut ());
-            let is_mapped = estimates.decisions.map_elements.is_some();
-            assert_eq!(is_mapped, estimator == EstimatorKind::Selected);
-            estimates
-        };
-        let [alone, mapped] = [(EstimatorKind::Path, 1), (EstimatorKind::Selected, 2)]
-            .map(|(estimator, seed)| found(estimator, seed));
-        assert_agree(&alone, &mapped, &format!("{max_bounces:?}"));
     }
 }
 
@@ -132,7 +104,7 @@ fn three_channels_of_grey_are_one() {
     // No triangle has this material; it only makes the scene count as coloured.
     let bsdf = Bsdf::Diffuse(Diffuse { reflectance: Rgb([0.1, 0.2, 0.3]) });
     three.materials.push(Material { name: "unused".to_owned(), bsdf });
-    for estimator in [EstimatorKind::Path, EstimatorKind::Selected, EstimatorKind::Photon] {
+    for estimator in [EstimatorKind::Path, EstimatorKind::Bidirectional, EstimatorKind::Photon] {
         let (one, three) = (run(&grey, estimator, None), run(&three, estimator, None));
         for (x, y) in one.point_intervals(0).iter().zip(three.point_intervals(0)) {
             assert!((x.value / y.value - 1.0).abs() < 1e-9, "{estimator:?}: {x:?}, {y:?}");

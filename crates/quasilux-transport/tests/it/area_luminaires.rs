@@ -281,7 +281,7 @@ fn photons_and_paths_agree() {
         assert_eq!(flux.lost_lm, 0.0, "{}", shape.name());
         assert!((flux.absorbed_lm / flux.emitted_lm - 1.0).abs() < 1e-12);
         for estimator in
-            [EstimatorKind::Path, EstimatorKind::Selected, EstimatorKind::BidirectionalMap]
+            [EstimatorKind::Path, EstimatorKind::Bidirectional, EstimatorKind::BidirectionalMap]
         {
             let paths = run(&scene, estimator);
             for (x, y) in photons.point_intervals(0).iter().zip(paths.point_intervals(0)) {

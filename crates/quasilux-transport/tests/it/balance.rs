@@ -6,7 +6,7 @@ use quasilux_transport::{EstimatorKind, Settings, simulate};
 
 #[test]
 fn closed_rooms_lose_nothing() {
-    for estimator in [EstimatorKind::Photon, EstimatorKind::Path, EstimatorKind::Selected] {
+    for estimator in [EstimatorKind::Photon, EstimatorKind::Path, EstimatorKind::Bidirectional] {
         let settings =
             Settings { estimator, max_samples: Some(1 << 12), rel_tol: 0.0, ..Settings::default() };
         let flux = simulate(&diffuse_cube(&[(0.0, 0.0)]), &settings, &mut ()).flux;

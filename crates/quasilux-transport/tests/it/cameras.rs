@@ -65,7 +65,8 @@ fn a_furnace_is_as_bright_everywhere() {
     let mut scene = room(DVec3::new(4.0, 3.0, 2.5), diffuse(0.5));
     all_walls_emit(&mut scene, 100.0);
     scene.cameras.push(camera(DVec3::new(1.0, 0.7, 1.2), DVec3::new(4.0, 3.0, 1.0)));
-    for estimator in [EstimatorKind::Path, EstimatorKind::Selected, EstimatorKind::BidirectionalMap]
+    for estimator in
+        [EstimatorKind::Path, EstimatorKind::Bidirectional, EstimatorKind::BidirectionalMap]
     {
         let settings = Settings { estimator, max_samples: Some(1024), ..Settings::default() };
         let estimates = simulate(&scene, &settings, &mut ());

@@ -1,4 +1,4 @@
-//! Photons connected to sensors: the same light as paths alone find, term by term, and the same
+//! Paths connected to light subpaths: the same light as paths alone find, term by term, and the same
 //! bits whoever computes them.
 
 use crate::agreement::coloured_room_with_mirror;
@@ -7,17 +7,13 @@ use crate::scenes::{diffuse_cube, level_grid, point_light, points};
 use glam::DVec3;
 use quasilux_scene::bsdf::{Pane, Translucent};
 use quasilux_scene::{Bsdf, Rgb, Scene};
-use quasilux_transport::{CheckError, Estimates, EstimatorKind, Settings, Switch, check, simulate};
+use quasilux_transport::{Estimates, EstimatorKind, Settings, check, simulate};
 
 /// Terms that are told apart, and the rest.
 const LISTED: u32 = 3;
 
 fn settings(estimator: EstimatorKind) -> Settings {
-    let connections = match estimator {
-        EstimatorKind::Selected => Switch::On,
-        _ => Switch::Auto,
-    };
-    Settings { estimator, connections, rel_tol: 0.0, ..Settings::default() }
+    Settings { estimator, rel_tol: 0.0, ..Settings::default() }
 }
 
 fn run(scene: &Scene, settings: &Settings) -> Estimates {
@@ -61,18 +57,16 @@ fn rooms() -> [(&'static str, Scene); 2] {
 #[test]
 fn photons_and_paths_share_the_light_of_every_term() {
     for (name, scene) in rooms() {
-        let [alone, light_vertices] =
-            [EstimatorKind::Path, EstimatorKind::Selected].map(|estimator| {
+        let [alone, connected] =
+            [EstimatorKind::Path, EstimatorKind::Bidirectional].map(|estimator| {
                 let max_samples =
                     Some(if estimator == EstimatorKind::Path { 1 << 12 } else { 1 << 10 });
                 run(&scene, &Settings { list_terms: LISTED, max_samples, ..settings(estimator) })
             });
         for sensor in 0..scene.sensors.len() {
             for term in 1..=LISTED as usize {
-                let (a, b) = (
-                    alone.term_intervals(sensor, term),
-                    light_vertices.term_intervals(sensor, term),
-                );
+                let (a, b) =
+                    (alone.term_intervals(sensor, term), connected.term_intervals(sensor, term));
                 for (point, (a, b)) in a.iter().zip(&b).enumerate() {
                     let found = format!("{name}, {sensor}, {point}, term {term}: {a:?}, {b:?}");
                     // Half-widths are 2.13 standard errors.
@@ -88,7 +82,7 @@ fn photons_and_paths_share_the_light_of_every_term() {
 #[test]
 fn threads_change_no_bit() {
     let [_, (_, scene)] = rooms();
-    let settings = Settings { max_samples: Some(64), ..settings(EstimatorKind::Selected) };
+    let settings = Settings { max_samples: Some(64), ..settings(EstimatorKind::Bidirectional) };
     let [one, three] = [1, 3].map(|threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
         pool.expect("threads start").install(|| run(&scene, &settings))
@@ -106,16 +100,8 @@ fn bounces_are_cut_where_wanted() {
         let estimates = run(&scene, &settings);
         estimates.interval_of(0, |lx| lx.iter().sum())
     };
-    let (alone, light_vertices) = (of_one(EstimatorKind::Path), of_one(EstimatorKind::Selected));
-    let allowed = 1.5 * (alone.half_width.unwrap() + light_vertices.half_width.unwrap());
-    assert!(allowed < 0.05 * alone.value, "{alone:?}, {light_vertices:?}");
-    assert!((alone.value - light_vertices.value).abs() < allowed, "{alone:?}, {light_vertices:?}");
-}
-
-#[test]
-fn other_estimators_have_nothing_to_join() {
-    let [_, (_, scene)] = rooms();
-    let settings = Settings { connections: Switch::On, ..settings(EstimatorKind::Path) };
-    let refusal = CheckError::NothingToJoin { estimator: "path" };
-    assert_eq!(check(&scene, &settings), Err(refusal));
+    let (alone, connected) = (of_one(EstimatorKind::Path), of_one(EstimatorKind::Bidirectional));
+    let allowed = 1.5 * (alone.half_width.unwrap() + connected.half_width.unwrap());
+    assert!(allowed < 0.05 * alone.value, "{alone:?}, {connected:?}");
+    assert!((alone.value - connected.value).abs() < allowed, "{alone:?}, {connected:?}");
 }

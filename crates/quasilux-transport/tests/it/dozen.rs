@@ -78,53 +78,48 @@ impl Observer for UntilKnown {
     }
 }
 
-fn settings(estimator: EstimatorKind, connections: Switch) -> Settings {
+fn settings(estimator: EstimatorKind) -> Settings {
     Settings {
         estimator,
         replicates: REPLICATES,
         importance: Switch::Off,
-        connections,
         max_samples: Some(MAX_SAMPLES),
         rel_tol: 0.0,
         ..Settings::default()
     }
 }
 
-fn estimate(scene: &Scene, estimator: EstimatorKind, connections: Switch) -> Mean {
-    let settings = settings(estimator, connections);
+fn estimate(scene: &Scene, estimator: EstimatorKind) -> Mean {
+    let settings = settings(estimator);
     let is_map = estimator == EstimatorKind::BidirectionalMap;
     let estimates = simulate(scene, &settings, &mut UntilKnown);
     assert_eq!((estimates.invalid_contributions, estimates.biased), (0, is_map));
     Mean::new(&estimates)
 }
 
-/// Paths, photons, both connected, and paths of the corrected map are without bias; so, in means
-/// over all of a room, is nearly the plain map, whose elements keep all flux where it lands within
-/// their size.
+/// Paths, photons, and both connected are without bias; so, in means over all of a room, is nearly
+/// the map, whose elements keep all flux where it lands within their size.
 fn assert_agree(scene: &Scene) {
     let unbiased = [
-        ("paths", EstimatorKind::Path, Switch::Off),
-        ("photons", EstimatorKind::Photon, Switch::Off),
-        ("corrected map", EstimatorKind::Selected, Switch::Off),
-        ("connected photons", EstimatorKind::Selected, Switch::On),
-        ("bidirectional paths", EstimatorKind::Bidirectional, Switch::Auto),
+        ("paths", EstimatorKind::Path),
+        ("photons", EstimatorKind::Photon),
+        ("bidirectional paths", EstimatorKind::Bidirectional),
     ];
-    let found = unbiased
-        .map(|(name, estimator, connections)| (name, estimate(scene, estimator, connections)));
+    let found = unbiased.map(|(name, estimator)| (name, estimate(scene, estimator)));
     for (number, (name, mean)) in found.iter().enumerate() {
         for (other, of_other) in &found[..number] {
             assert!(mean.agrees(of_other), "{name} and {other}: {found:?}");
         }
     }
-    let map = estimate(scene, EstimatorKind::BidirectionalMap, Switch::Off);
+    let map = estimate(scene, EstimatorKind::BidirectionalMap);
     assert!(found[0].1.agrees(&map), "map: {map:?}, {found:?}");
 }
 
 /// The comparison can fail: half a percent more reflectance of all walls is seen.
 #[test]
 fn a_little_more_reflectance_is_no_agreement() {
-    let path = estimate(&scenes::closed(0.6), EstimatorKind::Path, Switch::Off);
-    let photon = estimate(&scenes::closed(0.603), EstimatorKind::Photon, Switch::Off);
+    let path = estimate(&scenes::closed(0.6), EstimatorKind::Path);
+    let photon = estimate(&scenes::closed(0.603), EstimatorKind::Photon);
     assert!(!path.agrees(&photon), "{path:?}, {photon:?}");
 }
 

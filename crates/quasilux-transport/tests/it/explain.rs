@@ -7,9 +7,9 @@ use glam::DVec3;
 use quasilux_sampling::Sequence;
 use quasilux_scene::light::AreaLight;
 use quasilux_scene::{Light, Material, Scene};
-use quasilux_transport::explain::{Beside, Block, SampleKind, Share};
+use quasilux_transport::explain::{Block, SampleKind, Share};
 use quasilux_transport::purpose::Purpose;
-use quasilux_transport::{EstimatorKind, Explanation, Settings, Switch, explain, simulate};
+use quasilux_transport::{EstimatorKind, Explanation, Settings, explain, simulate};
 
 /// A black room with half a bright ceiling, one triangle, and a point below it.
 fn black_room_under_a_ceiling() -> Scene {
@@ -72,13 +72,11 @@ fn what_is_computed_has_no_variance() {
     assert_eq!(explanation.gain, None);
 }
 
-/// What is said of the parts of an estimate tells how far it strays: the squared error of a run
-/// with random points over N indices is that of a path, of its counted photons and of its connected
-/// ones together, over N. 1024 replicates know the error to 2.2 %; 8 % are allowed. Paths forgotten
-/// would be 13 % and counted photons 49 % (connected ones 2.7 %: what they give is tested one by
-/// one, `connection/single.rs`).
+/// What is said of a path tells how far an estimate strays: the squared error of a run with random
+/// points over N indices is that of a path over N. 1024 replicates know the error to 2.2 %; 8 % are
+/// allowed.
 #[test]
-fn the_parts_tell_the_error_of_a_run() {
+fn the_deviation_of_a_path_tells_the_error_of_a_run() {
     const REPLICATES: u32 = 1024;
     const INDICES: u64 = 64;
     let mut scene = room(DVec3::new(4.0, 3.0, 2.5), diffuse(0.7));
@@ -87,19 +85,13 @@ fn the_parts_tell_the_error_of_a_run() {
     let places = places.map(|(x, y, z)| (DVec3::new(x, y, z), DVec3::Z));
     scene.sensors = vec![points("desk", &places)];
     let settings = Settings {
-        estimator: EstimatorKind::Selected,
-        connections: Switch::On,
+        estimator: EstimatorKind::Path,
         sequence: Sequence::Independent,
         replicates: REPLICATES,
         max_samples: Some(INDICES),
         ..Settings::default()
     };
-    let explanation = explain(&scene, &settings);
-    let parts = explanation.beside.iter();
-    let of_part =
-        |part: &Beside| part.explanation.relative_deviation / (part.for_each_path as f64).sqrt();
-    let deviations = parts.map(of_part).chain([explanation.relative_deviation]);
-    let predicted = deviations.map(|d| d * d).sum::<f64>().sqrt() / (INDICES as f64).sqrt();
+    let predicted = explain(&scene, &settings).relative_deviation / (INDICES as f64).sqrt();
     let estimates = simulate(&scene, &settings, &mut ());
     let of_replicate = &estimates.sensors[0].replicate_lx;
     let square = |target: usize| {
@@ -148,47 +140,22 @@ fn coordinates_are_named_in_their_order() {
     );
     let [leaves, across] = [Purpose::Emission, Purpose::EmissionOfArea];
     assert_eq!(first(EstimatorKind::Photon, 4), [leaves, across, on1, on2]);
-    let estimator = EstimatorKind::Selected;
-    let [on_map, beside] = [Switch::Off, Switch::On].map(|connections| {
-        explain(&scene, &Settings { estimator, connections, ..Settings::default() })
-    });
-    assert_eq!(beside.walk, SampleKind::PathsBesidePhotons);
-    assert_eq!(uses(&beside)[..4], [place, Purpose::FirstDirection, lit0, shown0]);
-    let [counted, light_vertices] = &beside.beside[..] else { panic!("{beside:?}") };
-    assert_eq!(counted.explanation.walk, SampleKind::CountedPhotons);
-    assert_eq!(light_vertices.explanation.walk, SampleKind::ConnectedPhotons);
-    assert!(counted.for_each_path > 0 && light_vertices.for_each_path > 0);
-    for photons in [counted, light_vertices] {
-        let explanation = &photons.explanation;
-        assert_eq!(uses(explanation)[..4], [leaves, across, on1, on2]);
-        assert_eq!(explanation.targets, beside.targets);
-        // All that are emitted draw the first coordinates, however many sensors look on.
-        assert_eq!(explanation.blocks[0].reached, 1.0, "{explanation:?}");
-    }
-    // Every photon draws for its connections, far behind all others.
-    let last = light_vertices.explanation.blocks.last().expect("blocks");
-    assert_eq!(
-        (last.uses[0].purpose, last.uses.len(), last.reached),
-        (Purpose::Connections, 1, 1.0)
-    );
+    let estimator = EstimatorKind::BidirectionalMap;
+    let on_map = explain(&scene, &Settings { estimator, ..Settings::default() });
     assert_eq!(on_map.walk, SampleKind::PathsOnMap);
-    assert!(on_map.beside.is_empty());
-    let mut named = on_map.blocks.iter().flat_map(|block| &block.uses);
-    let is_correction = |purpose| matches!(purpose, Purpose::Correction { .. });
-    assert!(named.any(|used| is_correction(used.purpose)), "{:?}", uses(&on_map));
+    assert_eq!(uses(&on_map)[..3], [place, Purpose::FirstDirection, lit0]);
 }
 
 #[test]
 fn threads_change_nothing() {
     let scene = coloured_room_with_mirror();
-    for estimator in [EstimatorKind::Path, EstimatorKind::Photon, EstimatorKind::Selected] {
-        let settings = Settings { estimator, connections: Switch::On, ..Settings::default() };
+    for estimator in [EstimatorKind::Path, EstimatorKind::Photon, EstimatorKind::BidirectionalMap] {
+        let settings = Settings { estimator, ..Settings::default() };
         let [one, three] = [1, 3].map(|threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
             pool.expect("threads start").install(|| explain(&scene, &settings))
         });
         assert_eq!(one, three);
-        assert_eq!(one.beside.len(), if estimator == EstimatorKind::Selected { 2 } else { 0 });
         assert!(one.gain.is_some_and(|gain| gain.factor > 1.0), "{:?}", one.gain);
     }
 }

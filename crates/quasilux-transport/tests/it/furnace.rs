@@ -1,21 +1,17 @@
 //! A closed room of emitting walls has the same light everywhere: pi L / (1 - r).
 
-use crate::estimators::PATH_ESTIMATORS;
 use crate::scenes::{all_walls_emit, diffuse, point_light, points, room};
 use glam::DVec3;
 use quasilux_scene::bsdf::Diffuse;
 use quasilux_scene::rgb::LUMINANCE_WEIGHTS;
 use quasilux_scene::{Bsdf, Grid, Quantity, Rgb, Sensor, SensorShape};
-use quasilux_transport::{EstimatorKind, Settings, Switch, simulate};
+use quasilux_transport::{EstimatorKind, Settings, simulate};
 use std::f64::consts::PI;
 
 #[test]
 fn illuminance_is_pi_l_over_one_minus_r() {
     for reflectance in [0.0, 0.5, 0.9, 0.99] {
-        // Photons fly for very long where little is absorbed: connected ones need minutes for a
-        // point a hair from a corner.
-        let is_quick = |connections| connections != Switch::On || reflectance < 0.9;
-        for (estimator, connections) in PATH_ESTIMATORS.into_iter().filter(|way| is_quick(way.1)) {
+        for estimator in [EstimatorKind::Path, EstimatorKind::Bidirectional] {
             let mut scene = room(DVec3::new(4.0, 3.0, 2.5), diffuse(reflectance));
             all_walls_emit(&mut scene, 100.0);
             scene.sensors.push(points(
@@ -27,14 +23,12 @@ fn illuminance_is_pi_l_over_one_minus_r() {
                     (DVec3::new(1.0, 0.0, 1.0), DVec3::Y),
                 ],
             ));
-            let settings =
-                Settings { estimator, connections, rel_tol: 0.02, ..Settings::default() };
+            let settings = Settings { estimator, rel_tol: 0.02, ..Settings::default() };
             let estimates = simulate(&scene, &settings, &mut ());
             assert!(estimates.tolerance_reached);
             let wanted = PI * 100.0 / (1.0 - reflectance);
             for interval in estimates.point_intervals(0) {
-                let found =
-                    format!("{estimator:?} {connections:?} {reflectance}: {interval:?}, {wanted}");
+                let found = format!("{estimator:?} {reflectance}: {interval:?}, {wanted}");
                 // 40 points: half as wide again, or right programs would fail now and then.
                 let allowed = 1.5 * interval.half_width.unwrap() + 0.003 * wanted;
                 assert!((interval.value - wanted).abs() <= allowed, "{found}");
@@ -66,7 +60,7 @@ fn a_deep_blue_room_has_the_light_of_its_channels() {
     });
     let channels = LUMINANCE_WEIGHTS.iter().zip(reflectance.0);
     let wanted = 4.0 * PI * 100.0 / 6.0 * channels.map(|(w, r)| w / (1.0 - r)).sum::<f64>();
-    for estimator in [EstimatorKind::Photon, EstimatorKind::Path, EstimatorKind::Selected] {
+    for estimator in [EstimatorKind::Photon, EstimatorKind::Path, EstimatorKind::Bidirectional] {
         let settings = Settings { estimator, rel_tol: 0.005, ..Settings::default() };
         let interval = simulate(&scene, &settings, &mut ()).point_intervals(0)[0];
         let allowed = 1.5 * interval.half_width.unwrap();

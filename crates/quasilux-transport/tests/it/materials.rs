@@ -4,7 +4,7 @@ use crate::scenes::{all_walls_emit, diffuse, level_grid, mirror, point_light, po
 use glam::DVec3;
 use quasilux_scene::bsdf::{Conductor, Dielectric, Pane, Plastic, Translucent};
 use quasilux_scene::{Bsdf, Grid, Material, Quantity, Rgb, Scene, Sensor, SensorShape};
-use quasilux_transport::{EstimatorKind, Settings, Switch, UnseenTolerance, simulate};
+use quasilux_transport::{EstimatorKind, Settings, UnseenTolerance, simulate};
 use std::f64::consts::PI;
 
 pub(crate) fn conductor(reflectance: f64, alpha: f64) -> Bsdf {
@@ -143,29 +143,23 @@ fn halls_of_perfect_mirrors_end_with_a_warning() {
         add_ball(&mut scene, DVec3::new(2.0, 1.5, 1.0), 0.5, glass);
         scene
     };
-    assert_warns_of_trapped_light(&hall, EstimatorKind::Photon, Switch::Auto);
-    assert_warns_of_trapped_light(&hall, EstimatorKind::Path, Switch::Auto);
-    assert_warns_of_trapped_light(&with_glass(hall.clone()), EstimatorKind::Photon, Switch::Auto);
+    assert_warns_of_trapped_light(&hall, EstimatorKind::Photon);
+    assert_warns_of_trapped_light(&hall, EstimatorKind::Path);
+    assert_warns_of_trapped_light(&with_glass(hall.clone()), EstimatorKind::Photon);
     // Each photon flies until it is given up, and pilots have many: where one of 512 is trapped
     // they must tell, too.
     add_box(&mut hall, DVec3::new(5.0, 0.0, 0.0), DVec3::new(6.0, 1.0, 1.0), diffuse(0.0));
     hall.lights.push(point_light(DVec3::new(5.5, 0.5, 0.5), 5110.0));
     for scene in [hall.clone(), with_glass(hall)] {
-        for (estimator, connections) in [
-            (EstimatorKind::Path, Switch::Auto),
-            (EstimatorKind::Selected, Switch::On),
-            (EstimatorKind::Selected, Switch::Off),
-            (EstimatorKind::BidirectionalMap, Switch::Auto),
-        ] {
-            assert_warns_of_trapped_light(&scene, estimator, connections);
+        for estimator in [EstimatorKind::Path, EstimatorKind::BidirectionalMap] {
+            assert_warns_of_trapped_light(&scene, estimator);
         }
     }
 }
 
-fn assert_warns_of_trapped_light(scene: &Scene, estimator: EstimatorKind, connections: Switch) {
+fn assert_warns_of_trapped_light(scene: &Scene, estimator: EstimatorKind) {
     let settings = Settings {
         estimator,
-        connections,
         replicates: 2,
         max_samples: Some(4),
         map_photons: 4,
@@ -175,7 +169,7 @@ fn assert_warns_of_trapped_light(scene: &Scene, estimator: EstimatorKind, connec
     let estimates = simulate(scene, &settings, &mut ());
     let warnings = &estimates.warnings;
     let warns = warnings.iter().any(|warning| warning.contains("light is trapped here"));
-    assert!(warns && estimates.biased, "{estimator:?}, {connections:?}: {warnings:?}");
+    assert!(warns && estimates.biased, "{estimator:?}: {warnings:?}");
 }
 
 /// Adds a ball of 128 facets: an octahedron with its edges halved twice, its normals outward.

@@ -12,7 +12,7 @@ use quasilux_scene::bsdf::{Diffuse, Measured, Translucent};
 use quasilux_scene::light::AreaLight;
 use quasilux_scene::{Bsdf, Light, Rgb, Scene};
 use quasilux_stats::{deep, sidak, student_t_quantile};
-use quasilux_transport::{Estimates, EstimatorKind, Settings, Switch, check, simulate};
+use quasilux_transport::{Estimates, EstimatorKind, Settings, check, simulate};
 use std::f64::consts::{FRAC_1_PI, PI};
 use std::sync::Arc;
 
@@ -71,10 +71,8 @@ pub(crate) fn measured(
 }
 
 pub(crate) fn estimates(scene: &Scene, estimator: EstimatorKind, samples: u64) -> Vec<Mean> {
-    let is_connected = estimator == EstimatorKind::Selected;
     let settings = Settings {
         estimator,
-        connections: if is_connected { Switch::On } else { Switch::Auto },
         replicates: REPLICATES,
         max_samples: Some(samples),
         rel_tol: 0.0,
@@ -159,7 +157,7 @@ fn a_table_of_lambert_is_a_translucent_sheet() {
     for (estimator, samples) in [
         (EstimatorKind::Path, 1 << 12),
         (EstimatorKind::Photon, 1 << 15),
-        (EstimatorKind::Selected, 1 << 12),
+        (EstimatorKind::Bidirectional, 1 << 12),
     ] {
         let found = estimates(&scene, estimator, samples);
         let pairs: Vec<(Mean, Mean)> = expected.iter().copied().zip(found).collect();
@@ -232,12 +230,12 @@ fn photons_and_paths_agree_on_published_sheets() {
 }
 
 /// Compares `paths` paths a replicate (2^12 in deep runs) with photons counted by cells, and with
-/// connected photons beside paths. Joint half-widths are at most `widest` of the values.
+/// paths that are connected to light subpaths. Joint half-widths are at most `widest` of the values.
 pub(crate) fn assert_estimators_agree(what: &str, scene: &Scene, paths: u64, widest: f64) {
     let paths = if deep() { paths.max(1 << 12) } else { paths };
     let alone = estimates(scene, EstimatorKind::Path, paths);
     let photons = estimates(scene, EstimatorKind::Photon, 8 * paths);
-    let both = estimates(scene, EstimatorKind::Selected, paths / 4);
+    let both = estimates(scene, EstimatorKind::Bidirectional, paths / 4);
     let pairs: Vec<(Mean, Mean)> =
         alone.iter().copied().zip(photons).chain(alone.iter().copied().zip(both)).collect();
     assert_alike(what, &pairs, widest);

@@ -85,7 +85,7 @@ fn first_shot_finds_light_on_facets_whose_middle_is_dark() {
     };
     let paths = run(EstimatorKind::Path, Switch::Off, 1 << 10);
     for first_shot in [Switch::On, Switch::Off] {
-        let both = run(EstimatorKind::Selected, first_shot, 1 << 8);
+        let both = run(EstimatorKind::Bidirectional, first_shot, 1 << 8);
         let pairs: Vec<(Mean, Mean)> = paths.iter().copied().zip(both).collect();
         assert_alike(&format!("first shot {first_shot:?}"), &pairs, 0.05);
         let map = run(EstimatorKind::BidirectionalMap, first_shot, 1 << 8);
@@ -173,7 +173,7 @@ fn light_that_grows_for_ever_ends_with_a_warning() {
     }
     for estimator in [
         EstimatorKind::Path,
-        EstimatorKind::Selected,
+        EstimatorKind::Bidirectional,
         EstimatorKind::BidirectionalMap,
         EstimatorKind::Photon,
     ] {

@@ -47,7 +47,7 @@ fn run(scene: &Scene, estimator: EstimatorKind, max_bounces: Option<u32>) -> Est
 
 /// All estimators that gather.
 const GATHERING: [EstimatorKind; 3] =
-    [EstimatorKind::Path, EstimatorKind::Selected, EstimatorKind::BidirectionalMap];
+    [EstimatorKind::Path, EstimatorKind::Bidirectional, EstimatorKind::BidirectionalMap];
 
 /// Compares them with photons.
 fn assert_agree(

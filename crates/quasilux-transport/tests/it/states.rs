@@ -107,8 +107,6 @@ fn runs() -> Vec<(&'static str, Scene, Settings)> {
     };
     let guided = Settings { importance: Switch::On, ..photon.clone() };
     let listing = |estimator| Settings { list_terms: 2, ..settings(estimator) };
-    let light_vertices = Settings { connections: Switch::On, ..listing(EstimatorKind::Selected) };
-    let mapped = Settings { connections: Switch::Off, ..settings(EstimatorKind::Selected) };
     let grown = Settings {
         map_adaptive: false,
         map_element_m: Some(0.5),
@@ -121,8 +119,6 @@ fn runs() -> Vec<(&'static str, Scene, Settings)> {
         ("photon", coloured.clone(), photon),
         (GUIDED, coloured, guided),
         ("path", with_points.clone(), listing(EstimatorKind::Path)),
-        ("connected", with_points.clone(), light_vertices),
-        ("on a frozen map", with_points.clone(), mapped),
         ("on maps that grow", with_points, grown),
         ("hidden light", caustics, of_hidden),
         ("bidirectional", bidirectional, listing(EstimatorKind::Bidirectional)),
@@ -187,12 +183,9 @@ fn points_that_are_done_stay_done() {
         image_depth: Some(0),
         ..Settings::default()
     };
-    let own = settings(EstimatorKind::Selected);
-    let light_vertices = Settings { connections: Switch::On, rel_tol: 0.02, ..own };
     let of_map = settings(EstimatorKind::BidirectionalMap);
     for (name, scene, settings) in [
         ("hidden light", mirrored, settings(EstimatorKind::Path)),
-        ("connected", screened(), light_vertices),
         ("on maps that grow", screened(), Settings { rel_tol: 0.1, ..of_map }),
         ("auto", screened(), Settings { rel_tol: 0.05, ..settings(EstimatorKind::Auto) }),
     ] {
@@ -386,7 +379,6 @@ fn damage_is_no_panic() {
         estimator,
         replicates: 2,
         max_samples: Some(4),
-        connections: Switch::On,
         map_element_m: Some(2.0),
         importance: Switch::Off,
         list_terms: 1,

@@ -1,13 +1,10 @@
 //! The terms of the Neumann series one by one: their sum, their closed form, and who agrees.
 
 use crate::agreement::coloured_room_with_mirror;
-use crate::estimators::PATH_ESTIMATORS;
 use crate::scenes::{all_walls_emit, diffuse, level_grid, point_light, points, room};
 use glam::DVec3;
 use quasilux_scene::Scene;
-use quasilux_transport::{
-    Estimates, EstimatorKind, Reconstruction, Settings, Switch, check, simulate,
-};
+use quasilux_transport::{Estimates, EstimatorKind, Reconstruction, Settings, check, simulate};
 use std::f64::consts::PI;
 
 /// Terms that are told apart in a furnace, where later ones are small.
@@ -80,11 +77,10 @@ fn estimators_agree_term_by_term() {
     let mut point = panel.clone();
     point.lights.push(point_light(DVec3::new(2.5, 1.2, 1.5), 400.0));
     for (scene, image_depth) in [(&panel, 2), (&point, 8), (&point, 0)] {
-        let listed = |(estimator, connections), seed| {
+        let listed = |estimator, seed| {
             let (list_terms, image_depth) = (LISTED, Some(image_depth));
             let settings = Settings {
                 estimator,
-                connections,
                 list_terms,
                 image_depth,
                 seed,
@@ -93,10 +89,10 @@ fn estimators_agree_term_by_term() {
             };
             run(scene, &settings)
         };
-        let [alone, others @ ..] = PATH_ESTIMATORS;
-        let paths = listed(alone, 1);
-        let counted = [EstimatorKind::Photon, EstimatorKind::BidirectionalMap];
-        for way in counted.map(|counted| (counted, Switch::Auto)).into_iter().chain(others) {
+        let paths = listed(EstimatorKind::Path, 1);
+        for way in
+            [EstimatorKind::Photon, EstimatorKind::Bidirectional, EstimatorKind::BidirectionalMap]
+        {
             let others = listed(way, 2);
             for term in 0..=LISTED as usize {
                 let terms = [&others, &paths].map(|estimates| estimates.term_intervals(0, term));
@@ -122,13 +118,10 @@ fn estimators_agree_term_by_term() {
 #[test]
 fn terms_add_up_and_disturb_nothing() {
     let scene = coloured_room_with_mirror();
-    let others = [EstimatorKind::Photon, EstimatorKind::BidirectionalMap];
-    let others = others.map(|other| (other, Switch::Auto));
-    for (estimator, connections) in PATH_ESTIMATORS.into_iter().chain(others) {
+    for estimator in EstimatorKind::ALL {
         for max_bounces in [None, Some(1), Some(3), Some(17)] {
             let limited = |list_terms| Settings {
                 estimator,
-                connections,
                 max_bounces,
                 list_terms,
                 max_samples: Some(64),

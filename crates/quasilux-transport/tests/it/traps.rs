@@ -38,7 +38,7 @@ fn a_panel_flush_in_the_ceiling_shines() {
     scene.sensors.push(points("below", &[(below, DVec3::Z)]));
     let s = (0.25 + distance_m * distance_m).sqrt();
     let factor = 4.0 / PI * (0.5 / s) * libm::atan(0.5 / s);
-    for estimator in [EstimatorKind::Path, EstimatorKind::Selected] {
+    for estimator in [EstimatorKind::Path, EstimatorKind::Bidirectional] {
         let settings = Settings { estimator, ..Settings::default() };
         let interval = simulate(&scene, &settings, &mut ()).point_intervals(0)[0];
         let wanted = 1000.0 * PI * factor;

@@ -167,8 +167,6 @@ fn workers_change_no_bit() {
         importance: Switch::Off,
         ..Settings::default()
     };
-    let connected =
-        Settings { connections: Switch::On, ..settings(EstimatorKind::Selected, 1 << 12) };
     let mapped = Settings {
         map_element_m: Some(0.5),
         map_photons: 3,
@@ -178,7 +176,7 @@ fn workers_change_no_bit() {
     let runs = [
         ("photon", &coloured, settings(EstimatorKind::Photon, 1 << 14)),
         ("path", &coloured, settings(EstimatorKind::Path, 1 << 11)),
-        ("connected", &coloured, connected),
+        ("connected", &coloured, settings(EstimatorKind::Bidirectional, 1 << 11)),
         ("on maps that grow", &coloured, mapped),
         ("hidden light", &caustics, settings(EstimatorKind::Path, 1 << 10)),
         ("converged", &screened(), settings(EstimatorKind::Auto, 1 << 13)),

@@ -82,29 +82,3 @@ fn the_explanation_is_printed() {
     assert!(parsed(&run.stdout)["explain"].is_object());
     assert!(run.stderr.contains("direction from the sensor"), "{}", run.stderr);
 }
-
-#[test]
-fn photons_beside_paths_are_explained() {
-    let folder = Folder::new("explain_beside");
-    write_room(&folder, "room", &Look::GREY);
-    let text = folder.read("room.toml");
-    let connected = "rel_tol = 0.1\nestimator = \"selected\"\nconnections = \"on\"";
-    folder.write("room.toml", text.replace("rel_tol = 0.1", connected));
-    let run = folder.quasilux(&["run", "room.toml", "--explain", "--json"]);
-    assert_eq!(run.code, Some(0), "{}", run.stderr);
-    let explanation = &parsed(&run.stdout)["explain"];
-    assert_eq!(explanation["samples_are"], "paths beside connected photons");
-    let beside = explanation["beside"].as_array().expect("photons");
-    assert_eq!(beside.len(), 2);
-    for (photons, are) in beside.iter().zip(["counted by cells", "connected to sensors"]) {
-        assert_eq!(photons["samples_are"], format!("photons {are}, beside paths"));
-        assert!(number(photons, "/for_each_path") >= 1.0);
-        assert!(number(photons, "/relative_deviation") > 0.0);
-        assert_eq!(photons["blocks"][0]["feeds"][0]["what"], "light, and direction or place on it");
-    }
-    for words in
-        ["photons counted by cells", "photons connected to", "With random points a path would"]
-    {
-        assert!(run.stderr.contains(words), "no {words} in {}", run.stderr);
-    }
-}

@@ -93,7 +93,7 @@ fn without_intervals_samples_end_a_run() {
 
 #[test]
 fn time_only_picks_the_last_checkpoint() {
-    for estimator in ["auto", "path", "bidirectional", "selected", "bidirectional-map", "photon"] {
+    for estimator in ["auto", "path", "bidirectional", "bidirectional-map", "photon"] {
         let folder = room(&format!("limits_time_{estimator}"));
         if estimator == "photon" {
             remove_probes(&folder, "room");

@@ -77,7 +77,7 @@ fn memory_is_predicted_within_a_factor_of_one_and_a_half() {
 fn memory_of_photons_is_bounded() {
     let folder = Folder::new("memory_bounded");
     write_room(&folder, "room", &Look::GREY);
-    for estimator in ["selected", "bidirectional-map"] {
+    for estimator in ["auto", "bidirectional-map"] {
         let more = [&LIMITS[..], &["--estimator", estimator]].concat();
         let [predicted, taken] = predicted_and_taken(&folder, &more);
         println!("{estimator}: {predicted:.3e} predicted, {taken:.3e} taken");

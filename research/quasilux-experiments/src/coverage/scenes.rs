@@ -162,7 +162,7 @@ fn cube() -> KnownScene {
         scene,
         hours: Vec::new(),
         truth_lx,
-        estimator: EstimatorKind::Selected,
+        estimator: EstimatorKind::Auto,
         rel_tol: [0.0025, 0.005],
     }
 }

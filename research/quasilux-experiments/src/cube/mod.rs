@@ -4,14 +4,10 @@
 //! A closed cube of 10 m, reflectance 2/3, one isotropic point light of 50 000 cd in the middle.
 //! The error is the L2 norm over 25 places on each of the six walls, over that of the truth, which
 //! is computed here (`truth`). The paper's four columns are photons that are counted on a map and
-//! paths that end on one, each with random points and with Halton's; ours are paths that correct
-//! the map, with Owen's scrambling of Sobol' points. The paper shows one run of each; here errors
+//! paths that end on one, each with random points and with Halton's; ours is the
+//! default, with Owen's scrambling of Sobol' points. The paper shows one run of each; here errors
 //! are root mean squares over independent randomisations, against N and against time. The floor
 //! under the paper's errors is looked for in the size of the map's elements (`floor`).
-//!
-//! Half of the places lie at edges, where joined photons are bad and inside of walls good, so that
-//! the engine's pilot finds both ways of our own form about as good and chance decides; here the
-//! column takes the map, and the other is measured beside it.
 //!
 //! WarningKind: the paper does not tell the size of its elements, nor how many photons come with a
 //! path. Direct light is computed, not read from the map, where paths end on it.
@@ -48,9 +44,8 @@ const REPLICATES: u32 = 64;
 const MAX: u64 = 1 << 20;
 const SECONDS: Duration = Duration::from_secs(80);
 /// N of what is beside the columns, unless the command line asks for less, however long it takes:
-/// photons with other sequences, paths with joined photons, photons of elements of other sizes.
+/// photons with other sequences, photons of elements of other sizes.
 const OTHER_PHOTONS: u64 = 1 << 16;
-const JOINED_PATHS: u64 = 1 << 6;
 const FLOOR_PHOTONS: u64 = 1 << 17;
 /// Legs of the map's elements: 16 on a side, 3072 elements in all.
 const ELEMENT_M: f64 = 0.625;
@@ -67,7 +62,7 @@ struct Findings {
     truth: Truth,
     /// In the order of [`compare::Column::ALL`].
     columns: [Curve; 5],
-    /// The paper's forms with other points than the paper's, and our own with joined photons.
+    /// The paper's forms with other points than the paper's.
     others: Vec<Curve>,
     /// The paper's forms with Halton's points as they are: one run of each.
     plain: [Curve; 2],
@@ -86,7 +81,7 @@ pub(super) fn run(arguments: &Options) -> Outcome {
     task.most = arguments.max_n.unwrap_or(MAX);
     task.limit = Some(arguments.seconds_per_point.unwrap_or(SECONDS));
     let columns = columns(ELEMENT_M, PHOTONS_PER_PATH).map(|setup| (setup, task.clone()));
-    let others = other_setups().map(|setup| (setup, beside(&task, setup.form)));
+    let others = other_setups().map(|setup| (setup, beside(&task)));
     let all = columns.into_iter().chain(others);
     let mut columns: Vec<Curve> = all.map(|(setup, task)| Curve::run(setup, &task)).collect();
     Curve::time(&mut columns, &task);
@@ -114,23 +109,18 @@ fn columns(element_m: f64, photons_per_path: u32) -> [Setup; 5] {
         Setup { form: photons, points: Points::Halton },
         Setup { form: map, points: Points::Independent },
         Setup { form: map, points: Points::Halton },
-        Setup { form: Form::Own { joins: false }, points: Points::ScrambledSobol },
+        Setup { form: Form::Own, points: Points::ScrambledSobol },
     ]
 }
 
-/// The paper's forms with the sequences that its columns leave out, and our own with joined
-/// photons.
+/// The paper's forms with the sequences that its columns leave out.
 fn other_setups() -> impl Iterator<Item = Setup> {
     let forms = [
         Form::Photons { element_m: ELEMENT_M },
         Form::Map { element_m: ELEMENT_M, photons_per_path: PHOTONS_PER_PATH },
     ];
     let others = Points::SEQUENCES.into_iter().filter(|points| *points != Points::Halton);
-    let joined = Setup { form: Form::Own { joins: true }, points: Points::ScrambledSobol };
-    forms
-        .into_iter()
-        .flat_map(move |form| others.clone().map(move |points| Setup { form, points }))
-        .chain([joined])
+    forms.into_iter().flat_map(move |form| others.clone().map(move |points| Setup { form, points }))
 }
 
 /// The paper's columns of quasi-random points as they are.
@@ -140,9 +130,8 @@ fn plain_setups() -> [Setup; 2] {
 }
 
 /// What is beside the columns ends at the same N, however long it takes.
-fn beside(task: &Task, form: Form) -> Task {
-    let most = if matches!(form, Form::Own { .. }) { JOINED_PATHS } else { OTHER_PHOTONS };
-    Task { most: task.most.min(most), limit: None, ..task.clone() }
+fn beside(task: &Task) -> Task {
+    Task { most: task.most.min(OTHER_PHOTONS), limit: None, ..task.clone() }
 }
 
 /// Our own form at one place of each class.
@@ -150,8 +139,7 @@ fn deep(task: &Task, truth: &Truth) -> Curve {
     let few = Task::at(Places::one_of_each_class(), truth);
     let most = task.most.min(DEEP);
     let task = Task { most, replicates: task.replicates, seed: task.seed, ..few };
-    let form = Form::Own { joins: false };
-    Curve::run(Setup { form, points: Points::ScrambledSobol }, &task)
+    Curve::run(Setup { form: Form::Own, points: Points::ScrambledSobol }, &task)
 }
 
 #[cfg(test)]

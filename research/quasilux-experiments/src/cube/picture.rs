@@ -54,7 +54,7 @@ fn by_time(findings: &Findings) -> Panel {
 
 fn by_points(findings: &Findings) -> Panel {
     let curves = findings.columns.iter().chain(&findings.others);
-    let curves = curves.filter(|curve| !matches!(curve.setup.form, Form::Own { .. }));
+    let curves = curves.filter(|curve| curve.setup.form != Form::Own);
     let lines = curves.map(|curve| {
         let dash =
             if matches!(curve.setup.form, Form::Map { .. }) { Dash::Solid } else { Dash::Dashed };

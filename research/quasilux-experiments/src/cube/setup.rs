@@ -13,9 +13,8 @@ pub(super) enum Form {
     /// The paper's bidirectional method: so many photons for each path from a place, which ends on
     /// the same map.
     Map { element_m: f64, photons_per_path: u32 },
-    /// Our own: paths from the places that are corrected where they end on a map, or beside photons
-    /// that are joined to the places.
-    Own { joins: bool },
+    /// Our own: the default, paths from the places that are connected to light subpaths.
+    Own,
 }
 
 /// Which points.
@@ -90,8 +89,7 @@ impl Form {
         match self {
             Self::Photons { .. } => "photons",
             Self::Map { .. } => "photons and paths",
-            Self::Own { joins: false } => "own",
-            Self::Own { joins: true } => "own with joined photons",
+            Self::Own => "own",
         }
     }
 
@@ -99,7 +97,7 @@ impl Form {
     pub(super) fn element_m(self) -> Option<f64> {
         match self {
             Self::Photons { element_m } | Self::Map { element_m, .. } => Some(element_m),
-            Self::Own { .. } => None,
+            Self::Own => None,
         }
     }
 
@@ -107,7 +105,7 @@ impl Form {
     /// count.
     fn photons_per_index(self) -> u64 {
         match self {
-            Self::Photons { .. } | Self::Own { .. } => 1,
+            Self::Photons { .. } | Self::Own => 1,
             Self::Map { photons_per_path, .. } => u64::from(photons_per_path),
         }
     }
@@ -121,7 +119,7 @@ impl Form {
     pub(super) fn paths(self, samples: u64) -> u64 {
         match self {
             Self::Photons { .. } => 0,
-            Self::Map { .. } | Self::Own { .. } => samples,
+            Self::Map { .. } | Self::Own => samples,
         }
     }
 
@@ -136,7 +134,7 @@ impl Setup {
     /// that photons keep equal flux and elements are of one size and hold one number.
     pub(super) fn settings(self, samples: u64, replicates: u32, seed: u64) -> Settings {
         let own = Settings {
-            estimator: EstimatorKind::Selected,
+            estimator: EstimatorKind::Auto,
             sequence: self.points.sequence(samples),
             randomization: self.points.randomization(),
             rel_tol: 0.0,
@@ -163,9 +161,7 @@ impl Setup {
                 map_photons: photons_per_path,
                 ..of_paper(EstimatorKind::BidirectionalMap, element_m)
             },
-            Form::Own { joins } => {
-                Settings { connections: if joins { Switch::On } else { Switch::Off }, ..own }
-            }
+            Form::Own => own,
         }
     }
 }

@@ -22,7 +22,7 @@ pub(super) fn heading(findings: &Findings) -> String {
          with legs of {ELEMENT_M} m.\n\
          Pseudo2 and quasi2: paths that end on such a map, {PHOTONS_PER_PATH} photons for each \
          path from a place.\n\
-         Own: paths that correct the map they end on, scrambled Sobol' points.\n\n\
+         Own: the default, paths that are connected to light subpaths, scrambled Sobol' points.\n\n\
          Places on an edge or in a corner belong to two or three walls, and are read once for \
          each: a path starts {inset:.0}\n\
          micrometres inside its wall's edge, and a map is read in the own wall's element there. A \
@@ -73,11 +73,8 @@ pub(super) fn table_4(findings: &Findings) -> String {
 /// The last look that all sequences have, of a way's form.
 fn common_look(findings: &Findings, curve: &Curve) -> u64 {
     let same = |other: &&Curve| other.setup.form.name() == curve.setup.form.name();
-    let is_own = matches!(curve.setup.form, Form::Own { .. });
     let curves = findings.columns.iter().chain(&findings.others);
-    let of_form = curves
-        .filter(|other| same(other) || is_own && matches!(other.setup.form, Form::Own { .. }));
-    of_form.map(|curve| curve.end().n).min().unwrap_or(0)
+    curves.filter(same).map(|curve| curve.end().n).min().unwrap_or(0)
 }
 
 /// Errors at one N, and slopes up to it, for all sequences.
@@ -95,7 +92,7 @@ pub(super) fn convergence(findings: &Findings) -> String {
         let n = common_look(findings, curve);
         let Some(look) = curve.look(n) else { continue };
         let setup = curve.setup;
-        let most = if matches!(setup.form, Form::Own { .. }) { u64::MAX } else { n };
+        let most = if setup.form == Form::Own { u64::MAX } else { n };
         let slope = |of_look| match curve.slope(most, of_look) {
             Some(slope) => format!("{slope:.2}"),
             None => "-".to_owned(),
@@ -123,7 +120,7 @@ fn by_form(findings: &Findings) -> Vec<&Curve> {
     curves.sort_by_key(|curve| match curve.setup.form {
         Form::Photons { .. } => 0,
         Form::Map { .. } => 1,
-        Form::Own { .. } => 2,
+        Form::Own => 2,
     });
     curves
 }

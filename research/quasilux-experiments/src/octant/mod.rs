@@ -64,7 +64,7 @@ pub(super) fn run(arguments: &Options) -> Outcome {
 
 impl Findings {
     fn new(effort: &Effort) -> Self {
-        let ladder = effort.ladder(EstimatorKind::Selected);
+        let ladder = effort.ladder(EstimatorKind::Auto);
         let photons = PhotonPoints::ALL.map(|way| Curve::of_photons(way, effort));
         let curves = photons.into_iter().chain([Curve::of_ladder(&ladder)]).collect();
         Self { ladder, curves }

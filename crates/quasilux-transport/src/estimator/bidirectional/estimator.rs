@@ -197,7 +197,6 @@ impl<S: Spectrum> Estimator for BidirectionalEstimator<'_, S> {
             direct_lx: direct_lx.into_iter().zip(exact_lx).map(|(a, b)| a + b).collect(),
             resolved: vec![true; targets],
             missed: vec![false; targets],
-            contradicted: vec![false; targets],
             samples: (0..targets).map(|target| self.samples_of(target)).collect(),
             terms: self.terms(),
             unseen: Some(UnseenLight {

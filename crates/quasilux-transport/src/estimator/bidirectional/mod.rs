@@ -76,6 +76,7 @@ mod light_subpath;
 mod light_weights;
 mod mirrored_way;
 mod nearest_emitter;
+mod partner;
 mod peaks;
 mod plan;
 mod progress;

@@ -1,15 +1,15 @@
 //! Progress of the path estimator from one checkpoint to the next: photons that all paths share,
-//! connected photons, and the paths themselves.
+//! and the paths themselves.
 //!
 //! Between pieces of each of them the state can be kept. Each knows how far it is, so that a run
 //! that goes on from a state finds what is left.
 
 use super::PathEstimator;
 use crate::path::end::{GrowingMaps, PathEnd};
-use crate::path::sections::{PathScores, PathSums, Piece, WorkCounts};
+use crate::path::sections::{PathSums, Piece, WorkCounts};
 use crate::path::wave::{PathWave, WAVE};
-use crate::photon::counts::PhotonCounts;
 use crate::spectrum::Spectrum;
+use crate::stats::scores::Scores;
 use crate::stats::watch::Watch;
 use rayon::prelude::*;
 use std::ops::Range;
@@ -48,11 +48,8 @@ impl<S: Spectrum> PathEstimator<'_, S> {
         true
     }
 
-    /// Traces the paths of the indices up to `samples`, and photons that come with them.
+    /// Traces the paths of the indices up to `samples`.
     pub(super) fn gather(&mut self, samples: u64, watch: &mut Watch<'_>) -> bool {
-        if !self.connect_photons(samples, watch) {
-            return false;
-        }
         let indices = self.next_indices(samples);
         if let Some(is_done) = self.gather_by_workers(&indices, samples, watch) {
             (self.samples, self.done) = (samples, 0);
@@ -86,27 +83,6 @@ impl<S: Spectrum> PathEstimator<'_, S> {
         (0..pieces).into_par_iter().map_init(PathWave::default, trace).collect()
     }
 
-    /// Traces the photons of light vertex connections up to `samples`.
-    fn connect_photons(&mut self, samples: u64, watch: &mut Watch<'_>) -> bool {
-        if let Some(is_done) = self.connect_by_workers(samples, watch) {
-            return is_done;
-        }
-        let Some(light_vertices) = &self.light_vertices else { return true };
-        let photons = light_vertices.samples()..samples;
-        for piece in watch.pieces(photons, light_vertices.work_of_an_index()) {
-            let Some(light_vertices) = &mut self.light_vertices else { break };
-            let Some(photons) = light_vertices.grow(self.context, piece.end, watch) else {
-                return false;
-            };
-            let photons = photons.into_iter().map(PhotonCounts::apart_from_flux);
-            photons.for_each(|photons| self.contribution.photons += photons);
-            if !watch.keep(|out| self.put_all(out)) {
-                return false;
-            }
-        }
-        true
-    }
-
     /// The indices of the paths to trace: all of them where maps have grown, whose values changed.
     fn next_indices(&mut self, samples: u64) -> Range<u64> {
         if self.end.photons(samples).is_none() {
@@ -116,7 +92,7 @@ impl<S: Spectrum> PathEstimator<'_, S> {
             let replicates = self.replicates as usize;
             for target in &self.growing {
                 self.sums[target * replicates..][..replicates].fill(PathSums::default());
-                self.scores[*target] = PathScores::default();
+                self.scores[*target] = Scores::default();
             }
         }
         self.first..samples

@@ -1,12 +1,12 @@
 //! Blocks of the path estimator's work: asked of workers, and traced for others.
 
+use super::PathEstimator;
 use super::advance::ROUND;
-use super::{Costs, PathEstimator};
-use crate::codec::{Reader, StateError, Stored, Writer};
+use crate::codec::{Reader, StateError, Writer};
 use crate::estimator::block::{BlockFrame, PathProgress};
-use crate::path::sections::{PathScores, PathSums, Piece, WorkCounts};
-use crate::photon::counts::PhotonCounts;
+use crate::path::sections::{PathSums, Piece, WorkCounts};
 use crate::spectrum::Spectrum;
+use crate::stats::scores::Scores;
 use crate::stats::watch::{BlockCounts, Watch, split};
 use crate::stats::workers::BlockSize;
 use std::ops::Range;
@@ -38,48 +38,17 @@ impl<S: Spectrum> PathEstimator<'_, S> {
         }))
     }
 
-    /// Has workers trace the photons that are connected to targets, from the indices so far up to
-    /// `coming`; `None` and `false` as above.
-    pub(super) fn connect_by_workers(
-        &mut self,
-        coming: u64,
-        watch: &mut Watch<'_>,
-    ) -> Option<bool> {
-        let progress = || BlockFrame::ConnectedPhotons { progress: self.progress(coming) };
-        let light_vertices = self.light_vertices.as_ref()?;
-        let indices = light_vertices.samples()..coming;
-        let (paths, sums) = (light_vertices.work_of_an_index(), light_vertices.sum_count() as u64);
-        let size = BlockSize { paths, sums };
-        let blocks = watch.blocks(progress, indices, size)?;
-        let Self { light_vertices, contribution, .. } = self;
-        let light_vertices = light_vertices.as_mut()?;
-        let is_done = watch.distribute(&blocks, &mut |from| {
-            let mut costs = Costs::default();
-            costs.merge_from(from)?;
-            light_vertices.merge_sums(from)?;
-            let (photons, rays) = (costs.photons.begun, costs.photons.rays);
-            contribution.photons += costs.photons;
-            Ok(BlockCounts { photons, paths: 0, rays })
-        });
-        light_vertices.go_to(coming);
-        Some(is_done)
-    }
-
     /// Traces a block for another process, which is so far.
     pub(crate) fn trace_block(
         &mut self,
         frame: &BlockFrame,
         block: Range<u64>,
     ) -> Result<Vec<u8>, StateError> {
-        let (BlockFrame::Paths { progress } | BlockFrame::ConnectedPhotons { progress }) = frame
-        else {
+        let BlockFrame::Paths { progress } = frame else {
             return Err(StateError::Unfit("the kind of a block"));
         };
         self.follow(progress)?;
-        match frame {
-            BlockFrame::ConnectedPhotons { .. } => self.connect_block(block, progress.coming),
-            _ => self.gather_block(&block, progress.coming),
-        }
+        self.gather_block(&block, progress.coming)
     }
 
     /// Goes to where another process is.
@@ -125,26 +94,6 @@ impl<S: Spectrum> PathEstimator<'_, S> {
         whole.put(&mut out);
         Ok(out.finish())
     }
-
-    fn connect_block(&mut self, block: Range<u64>, coming: u64) -> Result<Vec<u8>, StateError> {
-        let context = self.context;
-        let unfit = StateError::Unfit("the range of a block");
-        let light_vertices = self.light_vertices.as_mut().ok_or(unfit.clone())?;
-        if block.is_empty() || block.end > coming {
-            return Err(unfit);
-        }
-        light_vertices.clear_at(block.start);
-        let mut nobody = ();
-        let watch = &mut Watch::new(&mut nobody);
-        let photons = light_vertices.trace(context, block.end, watch).ok_or(unfit)?;
-        let mut costs = Costs::default();
-        let photons = photons.into_iter().map(PhotonCounts::apart_from_flux);
-        photons.for_each(|photons| costs.photons += photons);
-        let mut out = Writer::default();
-        costs.put(&mut out);
-        light_vertices.put_sums(&mut out);
-        Ok(out.finish())
-    }
 }
 
 impl Piece {
@@ -154,7 +103,7 @@ impl Piece {
         Self {
             first: numbers.start,
             sums: vec![PathSums::default(); sections],
-            scores: vec![PathScores::default(); sections],
+            scores: vec![Scores::default(); sections],
             work: WorkCounts::default(),
         }
     }
@@ -181,7 +130,7 @@ impl Piece {
     /// Of sections with numbers below `pairs`.
     fn read(from: &mut Reader<'_>, pairs: usize) -> Result<Self, StateError> {
         let (first, sums): (usize, Vec<PathSums>) = (from.value()?, from.value()?);
-        let (scores, work): (Vec<PathScores>, WorkCounts) = (from.value()?, from.value()?);
+        let (scores, work): (Vec<Scores>, WorkCounts) = (from.value()?, from.value()?);
         let is_within = first.checked_add(sums.len()).is_some_and(|end| end <= pairs);
         if !is_within || scores.len() != sums.len() {
             return Err(StateError::Unfit("the sums of a block"));

@@ -6,10 +6,9 @@ use crate::spectrum::Spectrum;
 impl<S: Spectrum> PathEstimator<'_, S> {
     /// Photons and paths from here to so many indices.
     pub(super) fn work_up_to(&self, samples: u64) -> u64 {
-        let joined = self.light_vertices.as_ref().map_or(0, |it| it.photons_of_an_index());
         let paths = (self.growing.len() as u64).saturating_mul(u64::from(self.replicates));
         let photons = self.end.photons_of_an_index(self.replicates);
-        let each = paths.saturating_add(photons).saturating_add(joined);
+        let each = paths.saturating_add(photons);
         each.saturating_mul(samples.saturating_sub(self.samples))
     }
 

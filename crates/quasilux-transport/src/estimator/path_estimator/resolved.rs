@@ -1,53 +1,24 @@
-//! Whether a target's replicates can tell its error: paths that met no light, or no bright part of
-//! a lobe, cannot.
+//! Whether a target's replicates can tell its error: paths that met no light, or too little of it,
+//! cannot.
 
 use super::PathEstimator;
 use crate::context::Context;
 use crate::lights::Asking;
-use crate::path::lobes::LobeSums;
-use crate::path::sections::PathScores;
 use crate::spectrum::Spectrum;
 use crate::stats::interval::Interval;
 use crate::stats::schedule::MIN_SAMPLES;
+use crate::stats::scores::Scores;
 use crate::stats::targets::Target;
 
 impl<S: Spectrum> PathEstimator<'_, S> {
-    /// Whether too few paths of each target were where narrow lobes are bright.
-    pub(super) fn missed_lobes(&self) -> Vec<bool> {
-        let own = self.sums.chunks_exact(self.replicates as usize).enumerate();
-        own.map(|(target, own)| {
-            let mut lobes = LobeSums::default();
-            own.iter().filter_map(|sums| sums.lobes.as_deref()).for_each(|more| lobes += more);
-            let paths = self.samples_of(target) * u64::from(self.replicates);
-            let value_lx = self.moment(target, paths).all_lx.unwrap_or_default();
-            lobes.are_missed(self.quantum, paths, value_lx)
-        })
-        .collect()
-    }
-
-    /// Whether too few paths of each target met emitting facets over specular surfaces.
-    pub(super) fn missed_hits(&self, replicate_lx: &[Vec<f64>]) -> Vec<bool> {
-        let own = self.scores.iter().enumerate();
-        own.map(|(target, scores)| {
-            let values = replicate_lx.iter().map(|row| row[target]);
-            let standard_error_lx = Interval::of_mean(values, Some(1.0)).half_width;
-            self.specular_hits.are_missed(
-                &scores.specular_hits,
-                self.paths_of(target),
-                standard_error_lx.unwrap_or_default(),
-            )
-        })
-        .collect()
-    }
-
     /// Whether few paths make the spread of each target, where half-widths count.
     pub(super) fn hidden_tails(&self, replicate_lx: &[Vec<f64>]) -> Vec<bool> {
-        let hides = |(target, scores): (usize, &PathScores)| {
+        let hides = |(target, scores): (usize, &Scores)| {
             let values = replicate_lx.iter().map(|row| row[target]);
             let standard_error_lx = Interval::of_mean(values, Some(1.0)).half_width;
             let standard_error = standard_error_lx.unwrap_or_default() / self.quantum.reference();
             self.samples_of(target) >= MIN_SAMPLES
-                && scores.paths.hide_their_tail(self.paths_of(target), standard_error)
+                && scores.hide_their_tail(self.paths_of(target), standard_error)
         };
         self.scores.iter().enumerate().map(hides).collect()
     }
@@ -61,11 +32,7 @@ impl<S: Spectrum> PathEstimator<'_, S> {
             .enumerate()
             .map(|(target, (own, samples_direct))| {
                 let found_direct = own.iter().any(|sums| !sums.direct.is_zero());
-                let found_indirect = own.iter().any(|sums| !sums.indirect.is_zero())
-                    || self
-                        .light_vertices
-                        .as_ref()
-                        .is_some_and(|light_vertices| light_vertices.found(target));
+                let found_indirect = own.iter().any(|sums| !sums.indirect.is_zero());
                 let reflected = own.iter().any(|sums| sums.reflected > 0);
                 !missed[target]
                     && (found_indirect || !reflected)

@@ -70,10 +70,7 @@ impl<'a, S: Spectrum> PathEstimator<'a, S> {
             return Moment { straight_lx: is_all_computed.then_some(computed_lx), all_lx: None };
         }
         let straight_lx = computed_lx + sum_lx(|sums| sums.direct) / paths as f64;
-        let connected_lx = (0..replicates).map(|r| self.connected_lx(r, target)).sum::<f64>();
-        let all_lx = straight_lx
-            + sum_lx(|sums| sums.indirect) / paths as f64
-            + connected_lx / replicates as f64;
+        let all_lx = straight_lx + sum_lx(|sums| sums.indirect) / paths as f64;
         Moment { straight_lx: Some(straight_lx), all_lx: Some(all_lx) }
     }
 }

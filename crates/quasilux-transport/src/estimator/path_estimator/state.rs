@@ -8,23 +8,17 @@ use crate::stats::decisions::Decisions;
 impl<S: Spectrum> PathEstimator<'_, S> {
     /// What was decided before the first path.
     pub(super) fn decided(&self) -> Decisions {
-        let connection =
-            self.light_vertices.as_ref().map(|light_vertices| &light_vertices.connection);
         let caustic_photons = self.caustics.as_ref().map(|caustics| caustics.photons_per_path());
         let facts = self.end.facts();
         Decisions {
-            connected_photons: connection.map(|connection| connection.photons()),
-            uses_importance: facts.uses_importance
-                || connection.is_some_and(|connection| connection.uses_importance()),
+            connected_photons: None,
+            uses_importance: facts.uses_importance,
             first_shot: facts.first_shot,
             map_elements: facts.elements,
             caustic_photons,
             digest: digest(|out| {
                 out.value(&self.quantum);
                 out.value(&self.exact.iter().map(|exact| exact.sum_lx()).collect::<Vec<_>>());
-                self.light_vertices
-                    .iter()
-                    .for_each(|light_vertices| light_vertices.put_decisions(out));
                 self.end.put_decisions(out);
                 out.value(&caustic_photons);
                 self.prepared.put(out);
@@ -34,10 +28,8 @@ impl<S: Spectrum> PathEstimator<'_, S> {
 
     /// Everything, at any time between two pieces.
     pub(super) fn put_all(&self, out: &mut Writer) {
-        let light_vertices = self.light_vertices.as_ref();
         out.value(&self.samples);
         out.value(&self.done);
-        out.value(&light_vertices.map_or(0, |light_vertices| light_vertices.samples()));
         out.value(&self.ends);
         self.shared.put(out);
         self.end.put(out);
@@ -53,7 +45,6 @@ impl<S: Spectrum> PathEstimator<'_, S> {
     ) -> Result<(), StateError> {
         self.samples = from.value()?;
         self.done = from.value()?;
-        let light_vertices: u64 = from.value()?;
         let ends: Vec<Option<u64>> = from.value()?;
         if ends.len() != self.targets.len() {
             return Err(StateError::Unfit("the ends of targets"));
@@ -63,15 +54,12 @@ impl<S: Spectrum> PathEstimator<'_, S> {
         self.end.merge_from(from)?;
         self.caustics.iter_mut().try_for_each(|caustics| caustics.merge_from(from))?;
         self.take_in_own(from)?;
-        let is_fine = self.samples.max(light_vertices) <= coming
+        let is_fine = self.samples <= coming
             && self.end.photons(coming).is_none_or(|left| left.start <= left.end)
             && self.ends.iter().flatten().all(|end| *end <= self.samples)
             && self.caustics.as_ref().is_none_or(|h| h.photons() <= h.photons_for(coming));
         if !is_fine {
             return Err(StateError::Unfit("the number of samples"));
-        }
-        if let Some(own) = &mut self.light_vertices {
-            own.go_to(light_vertices);
         }
         self.keep_to_ends();
         Ok(())
@@ -95,25 +83,13 @@ impl<S: Spectrum> PathEstimator<'_, S> {
         self.contribution.put(out);
         self.sums.as_slice().put(out);
         self.scores.as_slice().put(out);
-        self.light_vertices.iter().for_each(|light_vertices| light_vertices.put(out));
     }
 
     /// Adds that.
     pub(super) fn take_in_own(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
         self.contribution.merge_from(from)?;
         self.sums.as_mut_slice().merge_from(from)?;
-        self.scores.as_mut_slice().merge_from(from)?;
-        self.light_vertices
-            .iter_mut()
-            .try_for_each(|light_vertices| light_vertices.merge_from(from))
-    }
-
-    /// Declares the sums complete up to `samples`.
-    pub(super) fn complete(&mut self, samples: u64) {
-        self.samples = samples;
-        if let Some(light_vertices) = &mut self.light_vertices {
-            light_vertices.go_to(samples);
-        }
+        self.scores.as_mut_slice().merge_from(from)
     }
 }
 

@@ -70,17 +70,6 @@ impl EmitterImages {
         self.by_flux.is_none()
     }
 
-    /// The most that mirrors reflect of the light of any other image.
-    pub(super) fn left_out(&self) -> f64 {
-        self.images.left_out
-    }
-
-    /// The most that the mirrors of any image reflect.
-    pub(super) fn most_reflected(&self) -> f64 {
-        let images = self.images.nodes.iter().filter(|image| image.depth > 0);
-        images.map(|image| image.reflected).fold(0.0, f64::max)
-    }
-
     /// Asks for the light of one point of one image, weighted against other techniques: the weight
     /// is that of its density over this and `beside_sr` together.
     pub(super) fn sample<S: Spectrum>(

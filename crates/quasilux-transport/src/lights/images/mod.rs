@@ -21,9 +21,9 @@ mod unshown;
 
 use crate::lights::{Asking, ChoiceWork, EmitterPlace, EmitterPoint, PointLikes};
 use crate::spectrum::Spectrum;
+use crate::world::World;
 use crate::world::vertex::Vertex;
 use crate::world::visibility::{Receiver, ShadowQueue};
-use crate::world::{Facet, World};
 use chain::{Links, UnfoldedPath};
 use emitters::EmitterImages;
 use glam::DVec3;
@@ -185,32 +185,6 @@ impl SpecularImages {
         asked: EmitterPlace,
     ) -> f64 {
         self.emitters.pdf_m2(world, &self.mirrors, image, place, asked)
-    }
-
-    /// The most that is left of light of an area light that comes over specular surfaces and that
-    /// nobody asks for: what no image shows, and what comes over mirrors and through panes.
-    pub(crate) fn most_left_out<S: Spectrum>(&self, world: &World<S>) -> f64 {
-        let is_shown = |facet: &Facet| world.bsdf_of(facet).image_reflectance(1.0, true).is_some();
-        let mut specular = world.facets.iter().filter(|facet| world.bsdf_of(facet).is_specular());
-        if self.mirrors.curved_facets > 0 || !specular.all(is_shown) {
-            return 1.0;
-        }
-        let left_out = self.emitters.left_out();
-        if self.mixes_mirrors_and_panes(world) {
-            left_out.max(self.emitters.most_reflected())
-        } else {
-            left_out
-        }
-    }
-
-    /// Whether light may be mirrored in one plane and let through a pane in another.
-    fn mixes_mirrors_and_panes<S: Spectrum>(&self, world: &World<S>) -> bool {
-        let is_pane = |facet: &Facet| world.bsdf_of(facet).straight_transmittance(1.0).is_some();
-        let mut panes = (0..).zip(&world.facets).filter(|(_, facet)| is_pane(facet));
-        panes.any(|(number, _)| {
-            let own = usize::from(self.mirrors.of_facet(number).is_some());
-            self.mirrors.planes.len() > own
-        })
     }
 
     /// What all of them give to sensor points, every one tested: tells `receive` who gets how much.

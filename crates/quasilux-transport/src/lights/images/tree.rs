@@ -31,8 +31,6 @@ pub(crate) struct Images {
     pub(crate) lights: usize,
     /// Whether mirrors show more that would count.
     pub(crate) goes_on: bool,
-    /// The most that chains reflect which are not among these, but may be seen.
-    pub(crate) left_out: f64,
 }
 
 /// A light, or what a chain of mirrors shows of it.
@@ -90,7 +88,7 @@ impl Images {
             children: 0..0,
         };
         let nodes: Vec<Image> = (0..).zip(lights).map(light).collect();
-        let mut images = Self { lights: nodes.len(), nodes, goes_on: false, left_out: 0.0 };
+        let mut images = Self { lights: nodes.len(), nodes, goes_on: false };
         let mut level = 0..images.lights;
         while !level.is_empty() {
             let next = images.nodes.len();
@@ -106,8 +104,6 @@ impl Images {
                 images.nodes.truncate(next);
                 images.nodes[level.clone()].iter_mut().for_each(|image| image.children = 0..0);
                 images.goes_on = true;
-                let reflected = images.nodes[level].iter().map(|image| image.reflected);
-                images.left_out = reflected.fold(images.left_out, f64::max);
                 break;
             }
             level = next..images.nodes.len();
@@ -128,7 +124,6 @@ impl Images {
             for plane in 0..mirrors.planes.len() as u32 {
                 let Some(image) = self.image_in(mirrors, parent, plane, slack_m) else { continue };
                 if image.reflected < MIN_REFLECTED {
-                    self.left_out = self.left_out.max(image.reflected);
                     continue;
                 }
                 if self.nodes.len() >= most {

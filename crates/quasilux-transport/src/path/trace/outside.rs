@@ -24,8 +24,6 @@ pub(super) struct AskedOutside {
     place: Asking,
     /// Density in sr^-1 of the direction.
     pdf_sr: f64,
-    /// Reflections before that vertex; `None` of the start.
-    bounces: Option<u32>,
 }
 
 /// Factors on light from outside: on what the ray finds, and on what it would past panes.
@@ -59,10 +57,9 @@ impl AskedOutside {
         context: &Context<'_, S>,
         vertex: &Vertex<'_, S>,
         pdf_sr: f64,
-        bounces: Option<u32>,
     ) -> Option<Self> {
         let place = Asking::at(vertex);
-        context.lights.outside.as_ref().map(|_| Self { place, pdf_sr, bounces })
+        context.lights.outside.as_ref().map(|_| Self { place, pdf_sr })
     }
 }
 
@@ -165,14 +162,13 @@ impl<S: Spectrum> Path<'_, S> {
         context: &Context<'_, S>,
         at: &Interaction,
         surface: &Surface<'_, S>,
-        bounces: u32,
         next: &BsdfSample<S>,
     ) {
         let is_straight = |_: &AskedOutside| is_pane(surface.bsdf) && next.wi.z < 0.0;
         self.asked_outside = match next.pdf_sr {
             Some(pdf_sr) => {
                 let vertex = Vertex::on(&context.world, at, surface, self.beta);
-                AskedOutside::new(context, &vertex, pdf_sr, Some(bounces))
+                AskedOutside::new(context, &vertex, pdf_sr)
             }
             None => self.asked_outside.filter(is_straight),
         };
@@ -214,7 +210,7 @@ impl<S: Spectrum> Path<'_, S> {
         let Some(outside) = &context.lights.outside else { return };
         let mut found_cd_m2 = outside.luminance_cd_m2(self.direction);
         match self.asked_outside {
-            Some(AskedOutside { place, pdf_sr, .. }) => {
+            Some(AskedOutside { place, pdf_sr }) => {
                 let ratio = outside.pdf_sr(place, self.direction) / pdf_sr;
                 found_cd_m2 /= 1.0 + ratio * ratio;
             }
@@ -231,10 +227,6 @@ impl<S: Spectrum> Path<'_, S> {
             return;
         }
         self.found.add(bounces, light);
-        // No map at the vertex that it left has this, panes between or not.
-        let asked = self.asked_outside.and_then(|asked| asked.bounces);
-        let record = self.records.iter_mut().find(|record| Some(record.bounces) == asked);
-        record.into_iter().for_each(|record| record.add_beside_map(light));
     }
 
     /// What the path takes to a surface: where it has ended on a map, light from outside past panes

@@ -5,7 +5,6 @@ use super::Path;
 use crate::bsdf::BsdfSample;
 use crate::context::Context;
 use crate::lights::EmitterPlace;
-use crate::path::end::Rest;
 use crate::spectrum::Spectrum;
 use crate::world::Interaction;
 
@@ -71,8 +70,8 @@ impl SpecularWay {
 }
 
 impl<S: Spectrum> Path<'_, S> {
-    /// Whether it asks for images of area lights: not where it ends on a map or might, which holds
-    /// their light.
+    /// Whether it asks for images of area lights: not where it ends on a map, which holds their
+    /// light.
     pub(super) fn asks_for_emitter_images(&self, context: &Context<'_, S>) -> bool {
         context.images.show_emitters() && self.is_on_no_map(context)
     }
@@ -83,11 +82,11 @@ impl<S: Spectrum> Path<'_, S> {
     }
 
     fn is_on_no_map(&self, context: &Context<'_, S>) -> bool {
-        match self.rest {
-            Rest::Path => true,
+        match self.map_end {
+            None => true,
             // With a limit, only first surfaces are ends.
-            Rest::Map(_) if context.max_bounces.is_some() => self.bounces_asked != 1,
-            Rest::Map(_) | Rest::Recorded | Rest::Frozen(_) => self.bounces_asked == 0,
+            Some(_) if context.max_bounces.is_some() => self.bounces_asked != 1,
+            Some(_) => self.bounces_asked == 0,
         }
     }
 

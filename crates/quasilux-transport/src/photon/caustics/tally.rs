@@ -4,7 +4,7 @@
 use super::{CellReceiver, Receivers};
 use crate::lights::images::LightPathClass;
 use crate::photon::map::{MapLayout, MapTally, QUANTA_PER_PHOTON};
-use crate::photon::receiver::{PhotonReceiver, ReceiverCounts, SeenPhoton};
+use crate::photon::receiver::{PhotonReceiver, SeenPhoton};
 use crate::spectrum::Spectrum;
 use crate::stats::tally::checked_quanta;
 use crate::world::Interaction;
@@ -82,8 +82,8 @@ impl<S: Spectrum> PhotonReceiver<S> for CausticReceiver<'_, S> {
         }
     }
 
-    fn finish(self) -> ReceiverCounts {
-        ReceiverCounts { rays: 0, invalid: self.invalid }
+    fn finish(self) -> u64 {
+        self.invalid
     }
 }
 

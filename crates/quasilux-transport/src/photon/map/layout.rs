@@ -10,8 +10,6 @@ use crate::world::{Facet, Interaction, World};
 pub(crate) const ELEMENTS_ACROSS: f64 = 64.0;
 /// The same where pilot photons decide which of them are split.
 pub(crate) const COARSE_ELEMENTS_ACROSS: f64 = 16.0;
-/// The same where light is to be smooth, and finer would be noise.
-pub(crate) const COARSEST_ELEMENTS_ACROSS: f64 = 5.0;
 /// Marks what is split in a tree.
 const SPLIT: u32 = 1 << 31;
 /// Most elements on one side of all facets.
@@ -66,11 +64,6 @@ impl MapLayout {
     /// The same with a larger default, for those that are split where there is need.
     pub(super) fn coarse<S: Spectrum>(world: &World<S>, settings: &Settings) -> Self {
         Self::regular(world, COARSE_ELEMENTS_ACROSS, settings)
-    }
-
-    /// The same with the largest default, for few photons.
-    pub(crate) fn coarsest<S: Spectrum>(world: &World<S>, settings: &Settings) -> Self {
-        Self::regular(world, COARSEST_ELEMENTS_ACROSS, settings)
     }
 
     /// The longest edge of the elements, as far as `map_elements` allows.

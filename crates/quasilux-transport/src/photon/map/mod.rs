@@ -19,8 +19,6 @@ mod reconstruction;
 mod refine;
 mod tally;
 
-pub(crate) use layout::{
-    COARSE_ELEMENTS_ACROSS, COARSEST_ELEMENTS_ACROSS, ELEMENTS_ACROSS, MapLayout, MapPoint,
-};
+pub(crate) use layout::{COARSE_ELEMENTS_ACROSS, ELEMENTS_ACROSS, MapLayout};
 pub(crate) use refine::{MAX_NEW_ELEMENTS, refined};
 pub(crate) use tally::{BounceTerm, IlluminationMap, MapReceiver, MapTally, QUANTA_PER_PHOTON};

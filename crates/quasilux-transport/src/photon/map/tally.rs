@@ -4,7 +4,7 @@ use super::blocks::Blocks;
 use super::layout::{MapLayout, MapPoint};
 use crate::codec::{Reader, StateError, Stored, Writer};
 use crate::context::Context;
-use crate::photon::receiver::{PhotonReceiver, ReceiverCounts, SeenPhoton};
+use crate::photon::receiver::{PhotonReceiver, SeenPhoton};
 use crate::settings::Reconstruction;
 use crate::spectrum::Spectrum;
 use crate::stats::tally::checked_quanta;
@@ -117,11 +117,6 @@ impl<S: Spectrum> MapTally<S> {
         }
     }
 
-    /// Layers of photons with at most this many bounces.
-    fn layers_up_to(&self, max_bounces: u32) -> Range<usize> {
-        0..self.layers.len().min(max_bounces as usize)
-    }
-
     /// A counter, summed over layers.
     fn quanta(&self, layers: Range<usize>, counter: usize) -> u64 {
         self.layers[layers].iter().filter_map(OnceLock::get).map(|sums| sums.get(counter)).sum()
@@ -155,49 +150,22 @@ impl<S> Stored for MapTally<S> {
 }
 
 impl<S: Spectrum> IlluminationMap<'_, S> {
-    /// Illuminance in lx at a place, by photons with at most `max_bounces`; the last layer counts
-    /// whole. Linear ones may be negative in places.
-    pub(crate) fn illuminance_lx(&self, place: &MapPoint, max_bounces: u32) -> S {
-        self.of_layers_lx(place, self.tally.layers_up_to(max_bounces))
+    /// Illuminance in lx at a place. Linear ones may be negative in places.
+    pub(crate) fn illuminance_lx(&self, place: &MapPoint) -> S {
+        self.of_layers_lx(place, 0..self.tally.layers.len())
     }
 
     /// Its terms by the number of bounces of the photons, the last of as many as layers and more.
+    /// Of photons with at most `max_bounces`.
     pub(crate) fn terms_lx(
         &self,
         place: MapPoint,
         max_bounces: u32,
     ) -> impl Iterator<Item = BounceTerm<S>> {
-        let layers = self.tally.layers_up_to(max_bounces);
-        layers.map(move |layer| BounceTerm {
+        let layers = self.tally.layers.len().min(max_bounces as usize);
+        (0..layers).map(move |layer| BounceTerm {
             bounces: layer as u32 + 1,
             illuminance_lx: self.of_layers_lx(&place, layer..layer + 1),
-        })
-    }
-
-    /// About the standard deviation of [`Self::illuminance_lx`], in lx, as photons without order
-    /// would leave it.
-    ///
-    /// With N photons that all weigh the least, of flux P, on an element of area A it is `sqrt(N) P
-    /// / A`, for linear ones times the root mean square of the kernel at the place: of three `k =
-    /// 12 b - 3` it is `sqrt((sum k^2 + 9) / 12)`, 1 at the centre and 3 at corners, for `E[b_i
-    /// b_j]` of a uniform place is 1/6 and 1/12.
-    pub(crate) fn noise_lx(&self, place: &MapPoint, max_bounces: u32) -> S {
-        let MapTally { reconstruction, .. } = self.tally;
-        let first = self.tally.first(place);
-        let moments = reconstruction.moments();
-        let photon_lx = self.lm_per_quantum * QUANTA_PER_PHOTON / place.area_m2;
-        let kernel = match reconstruction {
-            Reconstruction::Constant => 1.0,
-            Reconstruction::Linear => {
-                let squares = place.barycentric.map(|b| (12.0 * b - 3.0) * (12.0 * b - 3.0));
-                (squares.iter().sum::<f64>() + 9.0) / 12.0
-            }
-        };
-        S::from_channels(|channel| {
-            let counters = first + moments * channel..first + moments * (channel + 1);
-            let layers = self.tally.layers_up_to(max_bounces);
-            let quanta: u64 = counters.map(|at| self.tally.quanta(layers.clone(), at)).sum();
-            (quanta as f64 / QUANTA_PER_PHOTON * kernel).sqrt() * photon_lx
         })
     }
 
@@ -263,8 +231,8 @@ impl<S: Spectrum> PhotonReceiver<S> for MapReceiver<'_, S> {
         }
     }
 
-    fn finish(self) -> ReceiverCounts {
-        ReceiverCounts { rays: 0, invalid: self.invalid }
+    fn finish(self) -> u64 {
+        self.invalid
     }
 }
 
@@ -273,7 +241,6 @@ mod tests {
     use super::*;
     use crate::photon::map::fixture::{Numbers, at, square};
     use crate::settings::Settings;
-    use quasilux_sampling::warp::sample_triangle;
     use quasilux_scene::Rgb;
 
     /// Photons at the three places of a rule that is exact for quadratic functions, as many as a
@@ -295,7 +262,7 @@ mod tests {
                     tally.add(&MapPoint { barycentric, ..place }, function(barycentric), bounces);
                 }
                 let map = tally.read(place.area_m2 / 3.0);
-                let found = map.illuminance_lx(&place, u32::MAX);
+                let found = map.illuminance_lx(&place);
                 let wanted = match map_reconstruction {
                     Reconstruction::Constant => function([1.0 / 3.0; 3]),
                     Reconstruction::Linear => function(place.barycentric),
@@ -305,7 +272,6 @@ mod tests {
                 assert!(terms.iter().map(|term| term.bounces).eq(1..=3));
                 let [a, b, c] = [0, 1, 2].map(|layer: usize| terms[layer].illuminance_lx);
                 assert!(b == 0.0 && (a + c - found).abs() < 1e-12);
-                assert_eq!(map.illuminance_lx(&place, 2), a);
                 assert_eq!(map.terms_lx(place, 1).count(), 1);
             }
         }
@@ -326,47 +292,12 @@ mod tests {
             for weight in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -1.0, 1e300] {
                 assert_eq!(tally.add(&place, weight, 1), moments, "{weight}");
             }
-            let found = tally.read(1.0).illuminance_lx(&place, 1);
+            let found = tally.read(1.0).illuminance_lx(&place);
             assert_eq!(found, 0.0, "{map_reconstruction:?}");
             let outside = MapPoint { barycentric: [-1e-5, 0.5, 0.5 + 1e-5], ..place };
             assert_eq!(tally.add(&outside, 1.0, 1), 0);
             let coloured = MapTally::<Rgb>::new(&layout, 1.0, 1);
             assert_eq!(coloured.add(&place, Rgb([1.0, -0.5, f64::NAN]), 1), 2 * moments);
-        }
-    }
-
-    /// Photons without order at random places of an element, in many tallies: the deviation of what
-    /// they say of a place is what one tally predicts, on average, whatever they weigh.
-    #[test]
-    fn noise_is_how_far_maps_are_off() {
-        let (world, numbers) = (square(), &mut Numbers(5));
-        for (map_reconstruction, weight) in [
-            (Reconstruction::Constant, 1.0),
-            (Reconstruction::Linear, 1.0),
-            (Reconstruction::Linear, 0.25),
-        ] {
-            let settings = Settings { map_reconstruction, ..Settings::default() };
-            let layout = MapLayout::new(&world, &settings);
-            let place = layout.locate(&at(&world, numbers));
-            let (mut predicted, mut values) = (0.0, Vec::new());
-            for _ in 0..2000 {
-                let tally = MapTally::<f64>::new(&layout, weight, 2);
-                // A number of photons that is itself by chance, 40 on average.
-                for _ in (0..400).filter(|_| numbers.next() < 0.1).collect::<Vec<_>>() {
-                    let barycentric = sample_triangle([numbers.next(), numbers.next()]);
-                    tally.add(&MapPoint { barycentric, ..place }, weight, 1);
-                }
-                let map = tally.read(place.area_m2);
-                let noise = map.noise_lx(&place, 1);
-                predicted += noise * noise / 2000.0;
-                values.push(map.illuminance_lx(&place, 1));
-                assert_eq!(map.noise_lx(&place, 0), 0.0);
-            }
-            let mean = values.iter().sum::<f64>() / 2000.0;
-            let found = values.iter().map(|v| (v - mean) * (v - mean)).sum::<f64>() / 1999.0;
-            // A binomial number varies 0.9 times as much as photons without order.
-            let ratio = predicted / found;
-            assert!((0.9..1.25).contains(&ratio), "{map_reconstruction:?} {weight}: {ratio}");
         }
     }
 }

@@ -200,9 +200,18 @@ fn simulation() {
             Case::new("an old name of importance")
                 .replace("rel_tol = 0.5", "steering = \"on\"")
                 .says(&["project.toml:32:1:", "\"steering\"", "\"importance\" now"]),
-            Case::new("an old name of connections")
-                .replace("rel_tol = 0.5", "joining = \"on\"")
-                .says(&["project.toml:32:1:", "\"joining\"", "\"connections\" now"]),
+            Case::new("a key that is gone")
+                .replace("rel_tol = 0.5", "connections = \"on\"")
+                .says(&["project.toml:32:1:", "\"connections\" in", "is gone", "\"auto\""]),
+            Case::new("its old name").replace("rel_tol = 0.5", "joining = \"on\"").says(&[
+                "project.toml:32:1:",
+                "\"joining\" in",
+                "is gone",
+                "\"auto\"",
+            ]),
+            Case::new("an estimator that is gone")
+                .replace("rel_tol = 0.5", "estimator = \"selected\"")
+                .says(&["project.toml:32:13:", "\"selected\" is gone", "\"auto\""]),
         ],
     );
 }
