@@ -97,7 +97,9 @@ mod tests {
         let mut report = example::without_intervals();
         let figure = |value| Figure { value: Some(value), half_width: None };
         let [sky, externally_reflected, internally_reflected] = [0.25, 0.125, 0.5].map(figure);
-        let parts = DaylightFactorComponents { sky, externally_reflected, internally_reflected };
+        let unseen = 0.0;
+        let parts =
+            DaylightFactorComponents { sky, externally_reflected, internally_reflected, unseen };
         report.sensors[0].points[0].daylight_factor =
             Some(DaylightFactor { total: figure(0.875), components: Some(parts) });
         let text = csv(&report.sensors[0]);

@@ -32,6 +32,8 @@ pub struct DaylightFactorComponents {
     pub externally_reflected: Figure,
     /// What remains: from surfaces within.
     pub internally_reflected: Figure,
+    /// What of the first two each may come by ways on which no path lay, at most, with 95 %.
+    pub unseen: f64,
 }
 
 /// A part of a daylight factor, as results name it.
@@ -66,7 +68,8 @@ impl Outside {
                 let within = rest(illuminance_lx, [sky, externally]);
                 let [sky, externally_reflected, internally_reflected] =
                     [sky, externally, within].map(|lx| share(lx, outside_lx));
-                DaylightFactorComponents { sky, externally_reflected, internally_reflected }
+                let unseen = components.unseen_lx / outside_lx;
+                DaylightFactorComponents { sky, externally_reflected, internally_reflected, unseen }
             }),
         })
     }
@@ -129,12 +132,15 @@ mod tests {
         let inside = Figure { value: Some(200.0), half_width: Some(2.0) };
         let sky = Outside { horizontal_illuminance_lx: 10_000.0, is_sky_alone: true };
         let lx = |value, half_width| Interval { value, half_width: Some(half_width) };
-        let known =
-            DaylightComponents { sky_lx: lx(100.0, 1.0), externally_reflected_lx: lx(30.0, 2.0) };
+        let known = DaylightComponents {
+            sky_lx: lx(100.0, 1.0),
+            externally_reflected_lx: lx(30.0, 2.0),
+            unseen_lx: 5.0,
+        };
         let found = sky.daylight_factor(inside, Some(&known)).unwrap().components.unwrap();
         let within = Figure { value: Some(0.007), half_width: Some(0.0003) };
         assert_eq!(found.sky, Figure { value: Some(0.01), half_width: Some(0.0001) });
-        assert_eq!(found.internally_reflected, within);
+        assert_eq!((found.internally_reflected, found.unseen), (within, 0.0005));
         let unknown = Figure { value: Some(200.0), half_width: None };
         let found = sky.daylight_factor(unknown, Some(&known)).unwrap().components.unwrap();
         assert_eq!(found.internally_reflected, Figure { half_width: None, ..within });

@@ -25,7 +25,12 @@ impl Gain {
     /// on from there, or has grown too much.
     pub(crate) fn grow(&mut self, albedo: f64, bounces: u32) -> bool {
         self.0 *= albedo;
-        bounces == 0 || self.0 <= MAX_GAIN
+        bounces == 0 || !self.is_cut()
+    }
+
+    /// Whether it has grown too much.
+    pub(crate) fn is_cut(self) -> bool {
+        self.0 > MAX_GAIN
     }
 }
 

@@ -8,15 +8,17 @@
 //! illuminance.
 
 use crate::context::Context;
-use crate::lights::Suns;
+use crate::lights::{SKY_MARGIN, Suns};
 use crate::path::daylight::{DaylightSearch, FromOutside, LastReflection, Whence};
 use crate::path::daylight_paths::{TargetReplicate, trace};
+use crate::path::trace::outside::most_of_a_path_lx;
 use crate::path::wave::PathWave;
 use crate::prepared::PreparedScene;
 use crate::settings::{EstimatorKind, Settings};
 use crate::spectrum::{Spectrum, is_grey};
 use crate::stats::interval::{Interval, t_quantile_for};
 use crate::stats::targets::{Target, targets};
+use crate::stats::unseen::UNSEEN_CONFIDENCE;
 use quasilux_scene::Rgb;
 use rayon::prelude::*;
 use std::ops::Range;
@@ -44,6 +46,9 @@ pub struct DaylightComponents {
     pub sky_lx: Interval,
     /// From surfaces and ground beyond the openings, in lx.
     pub externally_reflected_lx: Interval,
+    /// What of each may come by ways on which no path lay, at most, in lx, with
+    /// [`UNSEEN_CONFIDENCE`].
+    pub unseen_lx: f64,
 }
 
 /// The components at all sensor points, sensor by sensor, of illuminances to whose tolerance they
@@ -86,7 +91,9 @@ fn of_points<S: Spectrum>(
     points: KnownPoints<'_>,
 ) -> Option<Vec<DaylightComponents>> {
     let KnownPoints { targets, settings, illuminances } = points;
-    context.lights.outside.as_ref().filter(|outside| outside.has_portals())?;
+    let outside = context.lights.outside.as_ref().filter(|outside| outside.has_portals())?;
+    let search = DaylightSearch { suns: &Suns::default(), only_from_beyond: true };
+    let most_lx = SKY_MARGIN * outside.brightest_cd_m2() * most_of_a_path_lx(outside, &search);
     let point = |(number, target)| {
         let of = |replicate| TargetReplicate { number, target, replicate };
         let found = illuminances.get(number);
@@ -101,7 +108,7 @@ fn of_points<S: Spectrum>(
                 add(context, of(replicate), paths..goal, &mut wave, sums);
             }
             paths = goal;
-            let found = components(settings, &sums, paths);
+            let found = components(settings, &sums, paths, most_lx);
             if paths == most || found.are_known(settings, lx) {
                 return found;
             }
@@ -133,20 +140,34 @@ fn add<S: Spectrum>(
     });
 }
 
-fn components(settings: &Settings, sums: &[[f64; 2]], paths: u64) -> DaylightComponents {
+/// What is known after so many paths of each replicate, each of which finds `most_lx` at most.
+fn components(
+    settings: &Settings,
+    sums: &[[f64; 2]],
+    paths: u64,
+    most_lx: f64,
+) -> DaylightComponents {
     let t = t_quantile_for(sums.len(), 1.0 - settings.confidence);
     let [sky_lx, externally_reflected_lx] =
         [0, 1].map(|k| Interval::of_mean(sums.iter().map(|sums| sums[k] / paths as f64), t));
-    DaylightComponents { sky_lx, externally_reflected_lx }
+    // A path that finds something outside has one sample there.
+    let trials = paths as f64 * sums.len() as f64;
+    let unseen_lx = -libm::log(1.0 - UNSEEN_CONFIDENCE) * most_lx / trials;
+    DaylightComponents { sky_lx, externally_reflected_lx, unseen_lx }
 }
 
 impl DaylightComponents {
-    /// Whether both are known well enough beside an illuminance in lx. Without a tolerance all
-    /// paths are traced.
+    /// Whether both are known well enough beside an illuminance in lx: where all replicates found
+    /// nothing, by the bound on what they did not see. Without a tolerance all paths are traced.
     fn are_known(&self, settings: &Settings, illuminance_lx: f64) -> bool {
         let enough_lx = SHARE_OF_TOLERANCE * settings.tolerance_lx(illuminance_lx);
-        let is_known =
-            |it: Interval| it.half_width.is_some_and(|half_width| half_width <= enough_lx);
+        let unseen_tolerance_lx = settings.unseen_tolerance_lx(illuminance_lx);
+        let is_dark = unseen_tolerance_lx
+            .is_none_or(|enough_lx| self.unseen_lx <= SHARE_OF_TOLERANCE * enough_lx);
+        let is_known = |it: Interval| {
+            it.half_width.is_some_and(|half_width| half_width <= enough_lx)
+                && (it.value > 0.0 || is_dark)
+        };
         settings.has_tolerance()
             && [self.sky_lx, self.externally_reflected_lx].into_iter().all(is_known)
     }

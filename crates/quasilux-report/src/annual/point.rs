@@ -94,8 +94,14 @@ impl PointOfHours {
         let of_sun = Replicates::new(&point.sun_lx);
         let values = measures(calendar, thresholds, &of_year.means, &of_sun.means);
         let errors = jackknife(calendar, thresholds, [&of_year, &of_sun], &values);
-        let [half_widths, of_sun_widths] =
+        let [mut half_widths, of_sun_widths] =
             [&of_year, &of_sun].map(|all| all.half_widths(t.unwrap_or(0.0)));
+        for (hour, half_width) in half_widths.iter_mut().enumerate() {
+            // Of zeros alone the spread says nothing, a bound does.
+            if of_year.means[hour] == 0.0 {
+                *half_width = f64::from(point.unseen_lx[hour]);
+            }
+        }
         let of_hours = occupied(calendar, &of_year.means, &half_widths);
         let of_sunlight = occupied(calendar, &of_sun.means, &of_sun_widths);
         let half_width = |measure: Measure, t: f64| match measure.counted_lx(thresholds) {

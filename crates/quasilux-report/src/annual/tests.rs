@@ -42,6 +42,7 @@ fn point(illuminance_lx: Vec<Vec<f32>>, sun_lx: [f32; 3]) -> PointOfYear {
     let sun_lx = vec![sun_lx.to_vec(); illuminance_lx.len()];
     PointOfYear {
         number: 0,
+        unseen_lx: vec![0.0; illuminance_lx.first().map_or(0, Vec::len)],
         illuminance_lx,
         sun_lx,
         samples: 128,

@@ -26,7 +26,8 @@
 //! average. A point that reached its tolerance before others has its own number of `samples`. Where
 //! the sky shines, `outside` has its horizontal illuminance, and where nothing else does each point
 //! its `daylight_factor`, a share; beside openings in its parts, `sky_component`,
-//! `externally_reflected_component` and `internally_reflected_component`. Where it was asked for,
+//! `externally_reflected_component` and `internally_reflected_component`, the first two with what no
+//! path met of each at most (`components_unseen`). Where it was asked for,
 //! `explain` says which coordinates carry the variance. `findings` are what is probably wrong with
 //! the scene, each with the `check` that found it, place and `cure`; `warnings` have them as text,
 //! too.
@@ -273,6 +274,9 @@ fn daylight(factor: DaylightFactor) -> Map<String, Value> {
     for DaylightColumn { name, figure: Figure { value, half_width } } in factor.columns() {
         entries.insert(name.to_owned(), json!(value));
         entries.insert(format!("{name}_half_width"), json!(half_width));
+    }
+    if let Some(components) = factor.components {
+        entries.insert("components_unseen".to_owned(), json!(components.unseen));
     }
     entries
 }

@@ -68,6 +68,15 @@ impl HourTable {
         Self { hours: hours.len(), luminances, rows, suns }
     }
 
+    /// The largest luminance of each hour in cd/m2.
+    pub(super) fn brightest_cd_m2(&self) -> Vec<f32> {
+        let of_group = |rows: &[[f32; LANES]]| {
+            let none = [0.0_f32; LANES];
+            rows.iter().fold(none, |most, row| std::array::from_fn(|k| most[k].max(row[k])))
+        };
+        self.luminances.chunks(self.rows).flat_map(of_group).take(self.hours).collect()
+    }
+
     /// The illuminance of each hour in lx, but for what comes straight from the sun, of several
     /// points.
     pub(super) fn illuminances_lx(&self, of: &[Coefficients]) -> Vec<Vec<f32>> {

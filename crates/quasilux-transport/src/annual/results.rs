@@ -11,6 +11,10 @@ pub struct PointOfYear {
     pub illuminance_lx: Vec<Vec<f32>>,
     /// What comes straight from the sun while blinds are open, whether they are or not.
     pub sun_lx: Vec<Vec<f32>>,
+    /// Skylight in lx, hour by hour, that may come by ways on which no path lay, at most, with
+    /// [`UNSEEN_CONFIDENCE`](crate::unseen::UNSEEN_CONFIDENCE): where all replicates found nothing,
+    /// the half-width of that.
+    pub unseen_lx: Vec<f32>,
     /// Paths in each replicate, of all states of the blinds.
     pub samples: u64,
     /// The root mean square over hours of half-width over value; `None` with fewer than two
@@ -52,6 +56,7 @@ impl PointOfYear {
             number,
             illuminance_lx: none.clone(),
             sun_lx: none,
+            unseen_lx: vec![0.0; hours],
             samples: 0,
             relative_half_width: Some(0.0),
             is_done: true,

@@ -6,12 +6,16 @@ use super::hours::HourTable;
 use super::results::{PointOfYear, YearWork};
 use super::sun_disks::{ShiningSun, SunDisks, SunLight};
 use crate::context::Context;
+use crate::lights::Suns;
+use crate::path::daylight::DaylightSearch;
 use crate::path::daylight_paths::TargetReplicate;
+use crate::path::trace::outside::most_of_a_path_lx;
 use crate::path::wave::PathWave;
 use crate::settings::Settings;
 use crate::spectrum::Spectrum;
 use crate::stats::interval::t_quantile_for;
 use crate::stats::targets::Target;
+use crate::stats::unseen::UNSEEN_CONFIDENCE;
 use quasilux_scene::Environment;
 use quasilux_sky::{TabulatedSky, WeatherSky};
 use rayon::prelude::*;
@@ -54,6 +58,10 @@ pub(super) struct State<'y, S> {
     probed: Vec<usize>,
     suns: Vec<ShiningSun>,
     t: Option<f64>,
+    /// The most in lx that one path finds of the sky or the ground, in its own hours and in those
+    /// that are probed.
+    most_lx: Vec<f32>,
+    most_probed_lx: Vec<f32>,
 }
 
 /// A point while it is simulated.
@@ -112,12 +120,15 @@ impl<'y, S: Spectrum> State<'y, S> {
             let table = |mesh| HourTable::new(environment, &of_hours, &tabulated, mesh);
             meshes.iter().map(table).collect()
         };
+        let (tables, probes) = (tables(&own), tables(&probed));
         Self {
             context,
             settings,
             hours,
-            tables: tables(&own),
-            probes: tables(&probed),
+            most_lx: most_lx(context, &tables),
+            most_probed_lx: most_lx(context, &probes),
+            tables,
+            probes,
             own,
             probed,
             meshes,
@@ -219,11 +230,21 @@ impl<'y, S: Spectrum> State<'y, S> {
             }
             let tolerance = self.settings.rel_tol;
             let floor_lx = if tolerance > 0.0 { self.settings.abs_tol_lx / tolerance } else { 0.0 };
-            let known = self.t.map(|t| relative_half_width(all, t, floor_lx));
+            let unseen = self.unseen_of_a_path(point.sums[0].paths);
+            let unseen_lx: Vec<f32> = self.most_probed_lx.iter().map(|lx| unseen * lx).collect();
+            let known = self.t.map(|t| relative_half_width(all, &unseen_lx, t, floor_lx));
             point.relative_half_width = known;
             point.is_done = tolerance > 0.0 && known.is_some_and(|known| known <= tolerance);
             point.goal = self.next(point.goal, known.unwrap_or(f64::INFINITY));
         }
+    }
+
+    /// After so many paths of each replicate: how many times what one path finds at most may come
+    /// by ways on which none lay. A path that finds something outside has left, so it has one
+    /// sample there; what vertices ask for beside that makes no trials (`docs/unseen.md`).
+    fn unseen_of_a_path(&self, paths: u64) -> f32 {
+        let trials = paths as f64 * self.meshes.len() as f64;
+        (-libm::log(1.0 - UNSEEN_CONFIDENCE) / trials) as f32
     }
 
     /// The hours of tables, by point and replicate, but for what comes straight from the sun.
@@ -264,6 +285,10 @@ impl<'y, S: Spectrum> State<'y, S> {
                 }
             }
         }
+        let unseen = self.unseen_of_a_path(point.sums[0].paths);
+        for (&hour, lx) in self.own.iter().zip(&self.most_lx) {
+            year.unseen_lx[hour] = unseen * lx;
+        }
         year.samples += point.sums[0].paths;
         year.is_done &= point.is_done;
         year.invalid += point.sums.iter().map(|sums| sums.invalid).sum::<u64>();
@@ -276,16 +301,32 @@ impl<'y, S: Spectrum> State<'y, S> {
     }
 }
 
-/// The root mean square over hours of half-width over value, or over a floor where that is more.
-fn relative_half_width(by_replicate: &[Vec<f32>], t: f64, floor_lx: f64) -> f64 {
+/// The most in lx that one path finds of the sky or the ground by tables of all replicates, hour by
+/// hour.
+fn most_lx<S: Spectrum>(context: &Context<'_, S>, tables: &[HourTable]) -> Vec<f32> {
+    let search = DaylightSearch { suns: &Suns::default(), only_from_beyond: false };
+    let outside = context.lights.outside.as_ref();
+    let of_1_cd_m2 = outside.map_or(0.0, |it| most_of_a_path_lx(it, &search)) as f32;
+    let larger = |a: Vec<f32>, b: Vec<f32>| a.iter().zip(b).map(|(a, b)| a.max(b)).collect();
+    let brightest = tables.iter().map(HourTable::brightest_cd_m2).reduce(larger);
+    brightest.unwrap_or_default().iter().map(|cd_m2| of_1_cd_m2 * cd_m2).collect()
+}
+
+/// The root mean square over hours of half-width over value, or over a floor where that is more. An
+/// hour of which all replicates found nothing is known as well as its bound on unseen light says.
+fn relative_half_width(by_replicate: &[Vec<f32>], unseen_lx: &[f32], t: f64, floor_lx: f64) -> f64 {
     let n = by_replicate.len() as f64;
     let hours = by_replicate.first().map_or(0, Vec::len);
     let square = |hour: usize| {
         let values = by_replicate.iter().map(|values| f64::from(values[hour]));
         let mean = values.clone().sum::<f64>() / n;
         let squares: f64 = values.map(|x| (x - mean) * (x - mean)).sum();
+        let unseen_lx = f64::from(unseen_lx[hour]);
+        if mean == 0.0 {
+            return (unseen_lx > 0.0).then(|| unseen_lx * unseen_lx / (floor_lx * floor_lx));
+        }
         let over = mean.max(floor_lx);
-        (over > 0.0).then(|| t * t * squares / ((n - 1.0) * n * over * over))
+        Some(t * t * squares / ((n - 1.0) * n * over * over))
     };
     let (sum, count) = (0..hours)
         .filter_map(square)

@@ -23,7 +23,7 @@ pub(crate) use area_luminaires::{AreaLuminaires, ChosenPlace};
 pub(crate) use coarse_lights::coarse_tables_bytes;
 pub(crate) use emitting_facets::{EmitterPoint, Emitters};
 pub(crate) use facet_group::EmitterPlace;
-pub(crate) use outside::{DrawnDirection, Line, OnwardDirection, OutsideLight};
+pub(crate) use outside::{DrawnDirection, Line, OnwardDirection, OutsideLight, SKY_MARGIN};
 pub(crate) use pointlike::{Choice, Incidence, LightCentre, PointLikes};
 pub(crate) use selection::{Asking, ChoiceWork, tables_bytes};
 pub(crate) use sun_ways::{SunPlace, SunWays};

@@ -37,6 +37,9 @@ use quasilux_scene::{Environment, Opening, Scene};
 use quasilux_sky::solid_angle_of_the_sun_sr;
 use std::f64::consts::{FRAC_1_PI, TAU};
 
+/// What may lie between the directions by which [`OutsideLight::brightest_cd_m2`] is looked up.
+pub(crate) const SKY_MARGIN: f64 = 1.25;
+
 /// What a cosine counts at least: openings reach further than their centres.
 const MIN_COSINE: f64 = 0.1;
 

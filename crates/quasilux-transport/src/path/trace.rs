@@ -11,7 +11,7 @@
 
 mod direct_light;
 mod map_end;
-mod outside;
+pub(crate) mod outside;
 mod specular_way;
 mod virtual_light;
 

@@ -203,6 +203,11 @@ impl<S: Spectrum> World<S> {
         self.most_survives[facet.material as usize]
     }
 
+    /// Whether any material sends on more than it gets.
+    pub(crate) fn may_send_on_more(&self) -> bool {
+        self.most_survives.iter().any(|share| *share > 1.0)
+    }
+
     /// Whether any material does not absorb all of it.
     pub(crate) fn keeps_light(&self) -> bool {
         self.most_kept.iter().any(|share| *share > 0.0)

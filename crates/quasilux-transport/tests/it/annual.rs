@@ -2,7 +2,7 @@
 
 use crate::images::add_panel;
 use crate::outside::{Numbers, Room, room_with_window, through};
-use crate::scenes::point_light;
+use crate::scenes::{diffuse, point_light, points, room};
 use glam::DVec3;
 use quasilux_scene::bsdf::Translucent;
 use quasilux_scene::{Bsdf, Environment, Opening, Rgb, Scene, Sun};
@@ -15,6 +15,7 @@ use quasilux_transport::{
     ClosedHours, Control, EstimatorKind, PointOfYear, YearHours, seen_suns, simulate,
     simulate_year, sunlit_points,
 };
+use std::f64::consts::PI;
 
 /// Skies and suns at random, clear and overcast, low and high.
 fn hours(numbers: &mut Numbers, count: usize) -> Vec<WeatherSky> {
@@ -92,6 +93,71 @@ fn seen_of_sun(opening: &Opening, position: DVec3, centre: DVec3) -> f64 {
         inside(u) && inside(v) && n.dot(origin - position) * n.dot(direction) > 0.0
     };
     (0..N).filter(is_seen).count() as f64 / N as f64
+}
+
+/// A room behind a wall with a hole of 3 mm, whose sensor points look at the hole or away from it.
+fn behind_a_pinhole(hole_m: f64) -> Scene {
+    let mut scene = room(DVec3::new(4.0, 3.0, 2.5), diffuse(0.5));
+    // The wall y = 0.
+    scene.mesh.triangles.drain(8..10);
+    scene.mesh.material_of.truncate(10);
+    scene.mesh.object_of.truncate(10);
+    let (low, high) = (DVec3::new(2.0, 0.0, 1.2), DVec3::new(2.0 + hole_m, 0.0, 1.2 + hole_m));
+    let mut wall = |x: [f64; 2], z: [f64; 2]| {
+        let (u, v) = (DVec3::X * (x[1] - x[0]), DVec3::Z * (z[1] - z[0]));
+        add_panel(&mut scene, DVec3::new(x[0], 0.0, z[0]), u, v, diffuse(0.5));
+    };
+    wall([0.0, low.x], [0.0, 2.5]);
+    wall([high.x, 4.0], [0.0, 2.5]);
+    wall([low.x, high.x], [0.0, low.z]);
+    wall([low.x, high.x], [high.z, 2.5]);
+    let places = [(DVec3::new(2.0, 1.5, 1.2), DVec3::NEG_Y), (DVec3::new(1.0, 2.0, 0.8), DVec3::Z)];
+    scene.sensors.push(points("places", &places));
+    scene
+}
+
+/// Where no path finds the hole that all light comes by, hours are not known to be dark: they are
+/// not done, and zero with the half-width of what may have been missed, which holds what comes
+/// straight through the hole. Held to as many lux as that, they are; and so is a room without a
+/// hole.
+#[test]
+fn hours_in_which_nothing_was_found_are_not_done() {
+    let mut numbers = Numbers(41);
+    let overcast = |numbers: &mut Numbers| {
+        let sun = SkyPoint { altitude_deg: 30.0, azimuth_deg: 180.0 };
+        let level = SkyLevel::HorizontalIlluminance { lx: numbers.within(3000.0, 9000.0) };
+        let sky = Sky::new(Distribution::uniform(), level).unwrap();
+        WeatherSky { sky, sun, sun_normal_illuminance_lx: 0.0 }
+    };
+    let hours: Vec<WeatherSky> = (0..6).map(|_| overcast(&mut numbers)).collect();
+    let level = SkyLevel::ZenithLuminance { cd_m2: 1.0 };
+    let sky = Sky::new(Distribution::uniform(), level).unwrap();
+    let environment = Environment {
+        sky,
+        sun: None,
+        ground_reflectance: 0.3,
+        north_deg: 0.0,
+        openings: Vec::new(),
+    };
+    let settings = Settings { max_samples: Some(256), rel_tol: 0.03, ..Settings::default() };
+    let hole_m = 0.003;
+    let scene = Scene { environment: Some(environment.clone()), ..behind_a_pinhole(hole_m) };
+    for point in year(&scene, &hours, &settings) {
+        for (hour, sky) in hours.iter().enumerate() {
+            let [mean, _] = interval(&point.illuminance_lx, hour);
+            let horizontal_lx = sky.horizontal_illuminance_lx();
+            // Half a hemisphere of sky and half of ground through the hole, seen from 1.5 m.
+            let straight_lx = horizontal_lx / PI * hole_m * hole_m / (1.5 * 1.5);
+            let unseen_lx = f64::from(point.unseen_lx[hour]);
+            assert!(mean == 0.0 && unseen_lx > straight_lx, "{mean}, {unseen_lx}");
+            // 4096 paths, each of which may find pi L.
+            let expected_lx = horizontal_lx * 2.9957 / 4096.0;
+            assert!((unseen_lx / expected_lx - 1.0).abs() < 0.01, "{unseen_lx}, {expected_lx}");
+        }
+        assert!(!point.is_done && point.samples == 256);
+    }
+    let enough = Settings { abs_tol_lx: 10.0, ..settings.clone() };
+    assert!(year(&scene, &hours, &enough).iter().all(|point| point.is_done));
 }
 
 /// In black rooms hours are the integral of what the window shows, and the sun's disk.

@@ -20,7 +20,8 @@ fn settings(seed: u64) -> Settings {
 }
 
 fn illuminances(scene: &Scene, seed: u64) -> Vec<Interval> {
-    simulate(scene, &settings(seed), &mut ()).point_intervals(0)
+    let settings = Settings { estimator: EstimatorKind::Auto, ..settings(seed) };
+    simulate(scene, &settings, &mut ()).point_intervals(0)
 }
 
 fn components(scene: &Scene, seed: u64) -> Option<Vec<DaylightComponents>> {
@@ -98,7 +99,7 @@ fn facades_are_externally_reflected() {
         let all = illuminances(&scene, number + 100);
         let sky = illuminances(&black, number + 200);
         for ((found, all), sky) in found.iter().zip(all).zip(sky) {
-            let DaylightComponents { sky_lx, externally_reflected_lx: beyond } = found;
+            let DaylightComponents { sky_lx, externally_reflected_lx: beyond, .. } = found;
             let known = |it: Interval| it.half_width.map(|half_width| [it.value, half_width]);
             // Where few paths find the window, runs may have no interval.
             let (Some(known_all), Some(known_sky)) = (known(all), known(sky)) else { continue };

@@ -235,7 +235,7 @@ pub(crate) fn assert_estimators_agree(what: &str, scene: &Scene, paths: u64, wid
     let paths = if deep() { paths.max(1 << 12) } else { paths };
     let alone = estimates(scene, EstimatorKind::Path, paths);
     let photons = estimates(scene, EstimatorKind::Photon, 8 * paths);
-    let both = estimates(scene, EstimatorKind::Bidirectional, paths / 4);
+    let both = estimates(scene, EstimatorKind::Bidirectional, paths);
     let pairs: Vec<(Mean, Mean)> =
         alone.iter().copied().zip(photons).chain(alone.iter().copied().zip(both)).collect();
     assert_alike(what, &pairs, widest);

@@ -151,7 +151,7 @@ fn tables_of_metals_light_a_room_as_the_metals_do() {
             assert!(joint_lx < 0.03 * brought_lx, "{alpha}: {known:?}, {found:?}");
             assert!(off_lx <= joint_lx + stated * brought_lx, "{alpha}: {known:?}, {found:?}");
             let scene = divided(of_tables(&table));
-            assert_estimators_agree(table.kind(), &scene, 1 << 8, 0.06);
+            assert_estimators_agree(table.kind(), &scene, 1 << 10, 0.06);
         }
     }
 }

@@ -3,11 +3,15 @@
 
 use super::plan::{FoundBy, Receiver, largest_disc_m2, receivers};
 use super::sources::{Photon, PhotonFluxes, Sources};
+use crate::bsdf::TransportMode;
 use crate::context::Context;
+use crate::cutoff::Gain;
 use crate::lights::LightKind;
 use crate::spectrum::Spectrum;
 use crate::stats::tally::Quantum;
 use crate::stats::targets::Target;
+use crate::world::Interaction;
+use glam::DVec3;
 use std::f64::consts::PI;
 
 /// The scene, its lights, and how targets are served.
@@ -22,6 +26,8 @@ pub(super) struct Engine<'l, 'a, S> {
     pub(super) sky_found_by: FoundBy,
     /// Of the fluxes of photons.
     pub(super) flux_quantum: Quantum,
+    /// Whether light may grow on its way: surfaces may send on more than they get.
+    may_grow: bool,
 }
 
 impl<'l, 'a, S: Spectrum> Engine<'l, 'a, S> {
@@ -37,10 +43,28 @@ impl<'l, 'a, S: Spectrum> Engine<'l, 'a, S> {
             receivers: receivers(context, targets),
             emitters_found_by: FoundBy::new(emitters_lx, fluxes.emitters_lm / area_m2),
             sky_found_by: FoundBy::new(sky_lx, fluxes.sky_lm / area_m2),
+            may_grow: context.world.may_send_on_more(),
             flux_quantum: Quantum::for_reference(fluxes.most_lm().max(f64::MIN_POSITIVE)),
             fluxes,
             sources,
         }
+    }
+
+    /// Adds a surface to the way of a subpath that came there along `-wo` after so many bounces;
+    /// whether it goes on from there.
+    pub(super) fn grow(
+        &self,
+        gain: &mut Gain,
+        at: &Interaction,
+        wo: DVec3,
+        mode: TransportMode,
+        bounces: u32,
+    ) -> bool {
+        if !self.may_grow {
+            return true;
+        }
+        let albedo = self.context.world.bsdf(at).albedo(wo, at.front, mode);
+        gain.grow(albedo.max_channel(), bounces)
     }
 
     /// Who finds the light of a photon past narrow surfaces.

@@ -114,7 +114,7 @@ impl<'a, S: Spectrum> BidirectionalEstimator<'a, S> {
     }
 
     /// Indices that a target has.
-    fn samples_of(&self, target: usize) -> u64 {
+    pub(super) fn samples_of(&self, target: usize) -> u64 {
         self.ends[target].unwrap_or(self.samples)
     }
 
@@ -130,6 +130,22 @@ impl<'a, S: Spectrum> BidirectionalEstimator<'a, S> {
 
     fn mean(&self, target: usize, sum: Sum) -> f64 {
         self.quantum.value(sum) / self.samples_of(target).max(1) as f64
+    }
+
+    /// The illuminance at a target after so many indices of all replicates together; `None` without
+    /// any.
+    pub(super) fn all_lx(&self, target: usize, indices: u64) -> Option<f64> {
+        let replicates = self.replicates as usize;
+        let own = &self.sums[target * replicates..][..replicates];
+        let of_sums =
+            |sums: &TargetSums| self.quantum.value(sums.direct) + self.quantum.value(sums.indirect);
+        let sampled: f64 = own.iter().map(of_sums).sum();
+        (indices > 0).then(|| self.exact[target].sum_lx() + sampled / indices as f64)
+    }
+
+    /// The scene that the targets are of.
+    pub(super) fn scene(&self) -> &'a Scene {
+        self.scene
     }
 
     /// The mean over the replicates of what `sum` takes of each target.

@@ -11,7 +11,7 @@ use super::plan::{CONNECTED, FoundBy, JoinEdge, Receiver, favour};
 use super::sums::TargetSums;
 use crate::bsdf::{Bsdf, BsdfSample, TransportMode};
 use crate::context::Context;
-use crate::cutoff::MAX_EVENTS;
+use crate::cutoff::{Gain, MAX_EVENTS};
 use crate::lights::images::ImageSamples;
 use crate::lights::{Asking, ChoiceWork, EmitterPlace};
 use crate::path::sections::WorkCounts;
@@ -70,6 +70,7 @@ struct EyePath<'p, S> {
     bounces: u32,
     /// Those of them that are vertices.
     vertices: u32,
+    gain: Gain,
     /// Having left its last vertex.
     weights: EyeWeights,
     /// Where it last asked for light; `None` since it was mirrored or refracted.
@@ -216,6 +217,7 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
             beta: S::white() * PI,
             bounces: 0,
             vertices: 0,
+            gain: Gain::NONE,
             weights: EyeWeights([SubpathWeights::new(1.0 / pdf_sr, local.z / pdf_sr); 2]),
             asked_from: Some(Asking::at(vertex)),
             mirrored: MirroredFrom::new(context, vertex, pdf_sr),
@@ -255,6 +257,10 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
         let arrived = self.weights.map(|it| it.arrived(distance_m, wo.z));
         self.add_emitted(engine, at, arrived, found);
         if context.max_bounces.is_some_and(|most| self.bounces >= most) {
+            return false;
+        }
+        if !engine.grow(&mut self.gain, at, wo, TransportMode::Radiance, self.bounces) {
+            work.work.endless += 1;
             return false;
         }
         if bsdf.is_specular() {

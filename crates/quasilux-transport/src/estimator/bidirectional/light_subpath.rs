@@ -13,7 +13,7 @@ use super::mirrored_way::MirroredWay;
 use super::plan::{CONNECTED, FoundBy};
 use super::sources::Photon;
 use crate::bsdf::{Bsdf, BsdfSample, TransportMode};
-use crate::cutoff::MAX_EVENTS;
+use crate::cutoff::{Gain, MAX_EVENTS};
 use crate::lights::images::LightPathClass;
 use crate::lights::{Asking, LightKind};
 use crate::path::subpath_weights::SubpathWeights;
@@ -59,6 +59,7 @@ struct LightSubpath<'p, S> {
     flux_lm: S,
     /// Surfaces and panes so far.
     bounces: u32,
+    gain: Gain,
     leg: Leg<S>,
 }
 
@@ -140,7 +141,7 @@ impl<S: Spectrum> LightSubpaths<S> {
         let mut found: Vec<FoundVertex<S>> = Vec::new();
         let (mut queries, mut hits, mut arrivals) =
             (Vec::new(), Vec::<Option<Hit>>::new(), Vec::new());
-        let mut rays = 0;
+        let (mut rays, mut cut) = (0, 0);
         for _ in 0..MAX_EVENTS {
             if travelling.is_empty() {
                 break;
@@ -155,7 +156,11 @@ impl<S: Spectrum> LightSubpaths<S> {
                 let at = arrivals.next().and_then(Option::as_ref);
                 pass(&subpath.passing(at));
                 match at {
-                    Some(at) => subpath.arrive(engine, at, &mut found, &mut flux),
+                    Some(at) => {
+                        let goes_on = subpath.arrive(engine, at, &mut found, &mut flux);
+                        cut += u64::from(!goes_on && subpath.gain.is_cut());
+                        goes_on
+                    }
                     None => {
                         flux.lose(subpath.lm(), engine.flux_quantum);
                         false
@@ -166,7 +171,8 @@ impl<S: Spectrum> LightSubpaths<S> {
         for subpath in &travelling {
             flux.absorb(subpath.lm(), engine.flux_quantum);
         }
-        Self { rays, endless: travelling.len() as u64, flux, ..Self::by_subpath(found, count) }
+        let endless = cut + travelling.len() as u64;
+        Self { rays, endless, flux, ..Self::by_subpath(found, count) }
     }
 
     /// Vertices of so many subpaths.
@@ -201,7 +207,17 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
         };
         let flux_lm = S::white() * photon.flux_lm;
         let (from, direction) = (photon.emission.from, photon.emission.direction);
-        Some(Self { number, sampler, photon, from, direction, flux_lm, bounces: 0, leg })
+        Some(Self {
+            number,
+            sampler,
+            photon,
+            from,
+            direction,
+            flux_lm,
+            bounces: 0,
+            gain: Gain::NONE,
+            leg,
+        })
     }
 
     fn passing(&self, at: Option<&Interaction>) -> Passing<'_, S> {
@@ -231,6 +247,9 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
         let left = self.flux_lm.max_channel();
         // What is not a number is left to the eye subpaths, which show it.
         if !(left > 0.0 && left.is_finite()) {
+            return false;
+        }
+        if !engine.grow(&mut self.gain, at, wo, TransportMode::Importance, self.bounces) {
             return false;
         }
         let next = |sampler: &mut Sampler<'_>| {

@@ -6,6 +6,8 @@ use super::unit::{INDICES, Unit, UnitSums};
 use crate::codec::{Reader, StateError, Stored, Writer};
 use crate::estimator::block::{BlockFrame, PathProgress};
 use crate::spectrum::Spectrum;
+use crate::stats::observer::Snapshot;
+use crate::stats::targets::snapshot;
 use crate::stats::watch::{BlockCounts, Watch, split};
 use crate::stats::workers::BlockSize;
 use rayon::prelude::*;
@@ -34,6 +36,18 @@ impl Row {
     fn len(&self) -> u64 {
         let blocks = self.indices.end.div_ceil(INDICES) - self.indices.start / INDICES;
         if self.indices.is_empty() { 0 } else { blocks * self.replicates * self.chunks }
+    }
+
+    /// Indices of a target of this chunk in all replicates together, those before the row included,
+    /// after so many units.
+    fn indices_of(&self, chunk: u64, done: u64) -> u64 {
+        let pairs = done.saturating_sub(chunk).div_ceil(self.chunks);
+        let (whole, others) = (pairs / self.replicates, pairs % self.replicates);
+        let end = |blocks: u64| {
+            let end = (self.indices.start / INDICES + blocks) * INDICES;
+            end.clamp(self.indices.start, self.indices.end)
+        };
+        end(whole) * (self.replicates - others) + end(whole + 1) * others
     }
 
     fn unit<'t>(&self, number: u64, growing: &'t [usize]) -> Unit<'t> {
@@ -76,6 +90,7 @@ impl<S: Spectrum> BidirectionalEstimator<'_, S> {
                 .collect();
             self.add_units(&row, round.clone(), &found);
             self.done = round.end;
+            watch.show(|| Some(self.snapshot(&row)));
             let BlockCounts { photons, paths, rays } = counts(&found);
             let goes_on = watch.tick(photons, paths, rays);
             if !goes_on || !watch.keep(|out| self.put_all(out)) {
@@ -84,6 +99,19 @@ impl<S: Spectrum> BidirectionalEstimator<'_, S> {
         }
         (self.samples, self.done) = (samples, 0);
         true
+    }
+
+    /// What the sensors show after [`Self::done`] units of a row: all replicates of a target
+    /// together, over all indices that they have.
+    fn snapshot(&self, row: &Row) -> Snapshot {
+        let value_lx = |target: usize| {
+            let indices = match self.growing.binary_search(&target) {
+                Ok(rank) => row.indices_of((rank / TARGETS) as u64, self.done),
+                Err(_) => self.samples_of(target) * row.replicates,
+            };
+            self.all_lx(target, indices)
+        };
+        snapshot(self.scene(), (0..self.ends.len()).map(value_lx))
     }
 
     fn add_units(&mut self, row: &Row, numbers: Range<u64>, found: &[UnitSums]) {

@@ -1,6 +1,7 @@
 //! Which light a photon leaves: half of the choices go by flux, half evenly, so that a faint lamp
 //! is never left out beside bright ones.
 
+use crate::lights::SKY_MARGIN;
 use crate::lights::{Emission, Emitted, LightKind, Lights, Line};
 use crate::spectrum::Spectrum;
 use crate::world::World;
@@ -16,9 +17,6 @@ pub(super) struct Sources<'l, 'a> {
     lights: &'l Lights<'a>,
     choice: Option<Discrete>,
 }
-
-/// Luminances of the sky are looked up in the middle of cells.
-pub(super) const SKY_MARGIN: f64 = 1.25;
 
 /// The most that a photon of each kind of lights stands for, were it the only one, in lm.
 #[derive(Clone, Copy, Debug, Default)]

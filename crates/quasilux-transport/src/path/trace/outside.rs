@@ -6,7 +6,7 @@
 use super::{Onward, Path, PathWork};
 use crate::bsdf::{Bsdf, BsdfSample};
 use crate::context::Context;
-use crate::lights::{Asking, OnwardDirection, SunSample};
+use crate::lights::{Asking, OnwardDirection, OutsideLight, SunSample};
 use crate::path::daylight::{Daylight, DaylightSearch, Whence};
 use crate::purpose::Purpose;
 use crate::spectrum::Spectrum;
@@ -76,6 +76,14 @@ const SHARE_OF_SEARCH: f64 = 0.75;
 fn onward_share(search: Option<&DaylightSearch<'_>>) -> f64 {
     let is_search = search.is_some_and(|search| search.only_from_beyond);
     if is_search { SHARE_OF_SEARCH } else { SHARE_THROUGH_OPENINGS }
+}
+
+/// The most in lx that a path with that search finds where it runs into what is outside, of 1
+/// cd/m2: beside openings directions are drawn so much less often, and no surface sends on more
+/// than it gets.
+pub(crate) fn most_of_a_path_lx(outside: &OutsideLight<'_>, search: &DaylightSearch<'_>) -> f64 {
+    let share = if outside.has_portals() { onward_share(Some(search)) } else { 0.0 };
+    PI / (1.0 - share)
 }
 
 /// The direction in which a path leaves a sensor point with the side `n`. Its density counts for
