@@ -55,13 +55,15 @@ pub struct DaylightComponents {
 /// are to be known, with at most four paths for each of their samples. `None` where the sky does
 /// not shine alone, and where there are no openings that make an inside.
 ///
-/// The result is a function of scene, settings and illuminances. Runs in the rayon pool that the
-/// call is made in.
+/// `goes_on` is asked again and again, and ends the work with `None` when it says no. The result is
+/// a function of scene, settings and illuminances else. Runs in the rayon pool that the call is
+/// made in.
 #[must_use]
 pub fn daylight_components<'a>(
     scene: impl Into<PreparedScene<'a>>,
     settings: &Settings,
     illuminances: &[FoundIlluminance],
+    goes_on: &(dyn Fn() -> bool + Sync),
 ) -> Option<Vec<DaylightComponents>> {
     let prepared = scene.into();
     let scene = prepared.scene();
@@ -70,7 +72,7 @@ pub fn daylight_components<'a>(
         return None;
     }
     let settings = &Settings { estimator: EstimatorKind::Path, ..settings.clone() };
-    let points = KnownPoints { targets: &targets(scene), settings, illuminances };
+    let points = KnownPoints { targets: &targets(scene), settings, illuminances, goes_on };
     if is_grey(scene) {
         of_points(&Context::<f64>::new(prepared, settings), points)
     } else {
@@ -84,13 +86,14 @@ struct KnownPoints<'w> {
     settings: &'w Settings,
     /// By target.
     illuminances: &'w [FoundIlluminance],
+    goes_on: &'w (dyn Fn() -> bool + Sync),
 }
 
 fn of_points<S: Spectrum>(
     context: &Context<'_, S>,
     points: KnownPoints<'_>,
 ) -> Option<Vec<DaylightComponents>> {
-    let KnownPoints { targets, settings, illuminances } = points;
+    let KnownPoints { targets, settings, illuminances, goes_on } = points;
     let outside = context.lights.outside.as_ref().filter(|outside| outside.has_portals())?;
     let search = DaylightSearch { suns: &Suns::default(), only_from_beyond: true };
     let most_lx = SKY_MARGIN * outside.brightest_cd_m2() * most_of_a_path_lx(outside, &search);
@@ -110,11 +113,14 @@ fn of_points<S: Spectrum>(
             paths = goal;
             let found = components(settings, &sums, paths, most_lx);
             if paths == most || found.are_known(settings, lx) {
-                return found;
+                return Some(found);
+            }
+            if !goes_on() {
+                return None;
             }
         }
     };
-    Some(targets.par_iter().enumerate().map(point).collect())
+    targets.par_iter().enumerate().map(point).collect()
 }
 
 /// Traces paths of a point in one replicate.

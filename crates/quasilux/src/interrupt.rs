@@ -1,9 +1,21 @@
-//! Ctrl-C: the first one ends the run in order, the second one at once.
+//! Ctrl-C and SIGTERM: the first one ends the run in order, the second one at once.
+//!
+//! A run looks many times a second whether it is to end. What comes before its first look, such as
+//! a scene that is made ready, looks never: there the program ends when nobody has looked for a
+//! while, and nothing is lost, for nothing was known.
 
 use crate::exit::{CliError, Exit};
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
 
 static INTERRUPTED: AtomicBool = AtomicBool::new(false);
+/// Whether somebody has seen that.
+static IS_SEEN: AtomicBool = AtomicBool::new(false);
+/// Whether there are results, which are put out whatever happens.
+static HAS_RESULTS: AtomicBool = AtomicBool::new(false);
+
+/// Nobody looks for so long where nobody looks at all.
+const PATIENCE: Duration = Duration::from_millis(1500);
 
 /// Listens from now on.
 pub(crate) fn listen() -> Result<(), CliError> {
@@ -11,11 +23,26 @@ pub(crate) fn listen() -> Result<(), CliError> {
         if INTERRUPTED.swap(true, Ordering::Relaxed) {
             std::process::exit(Exit::Interrupted as i32);
         }
+        std::thread::spawn(|| {
+            std::thread::sleep(PATIENCE);
+            if !IS_SEEN.load(Ordering::Relaxed) && !HAS_RESULTS.load(Ordering::Relaxed) {
+                std::process::exit(Exit::Interrupted as i32);
+            }
+        });
     })
     .map_err(|error| CliError::new(format!("cannot listen for interrupts: {error}")))
 }
 
 /// Whether the user has asked to stop.
 pub(crate) fn requested() -> bool {
-    INTERRUPTED.load(Ordering::Relaxed)
+    let is_requested = INTERRUPTED.load(Ordering::Relaxed);
+    if is_requested {
+        IS_SEEN.store(true, Ordering::Relaxed);
+    }
+    is_requested
+}
+
+/// From here on there are results, which an interrupt does not lose.
+pub(crate) fn keep_results() {
+    HAS_RESULTS.store(true, Ordering::Relaxed);
 }

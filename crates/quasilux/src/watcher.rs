@@ -26,6 +26,8 @@ const BETWEEN_LOOKS: Duration = Duration::from_millis(250);
 const LOOK_SHARE: u32 = 50;
 /// The same for keeping the run.
 const KEEPING_SHARE: u32 = 30;
+/// A run that is told to stop before it has any value gets so much longer.
+const GRACE: Duration = Duration::from_millis(500);
 /// Of the time that a run may take, sensors get this share where there are cameras too.
 const SENSORS_SHARE: f64 = 0.5;
 
@@ -50,6 +52,8 @@ pub(crate) struct Watcher<'a> {
     kept: Option<Checkpoints>,
     /// Why the run was told to stop, if it was.
     pub(crate) stopped: Option<Stopped>,
+    /// Since when.
+    told: Option<Instant>,
     /// Whoever listens in place of the terminal.
     listener: Option<Listener<'a>>,
     /// What could not be told at once, for there is no terminal.
@@ -95,6 +99,18 @@ pub enum Event<'a> {
     Progress(&'a Progress),
     /// What it knows at a checkpoint.
     Checkpoint(&'a Estimates),
+}
+
+/// The end of the time that a run may take, if there is one.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Clock {
+    end: Option<Instant>,
+}
+
+impl Clock {
+    pub(crate) fn is_late(self) -> bool {
+        self.end.is_some_and(|end| Instant::now() >= end)
+    }
 }
 
 /// Follows a run, on one of its threads, and may stop it: then it ends at its last checkpoint.
@@ -143,6 +159,7 @@ impl<'a> Watcher<'a> {
             picture: None,
             kept: None,
             stopped: None,
+            told: None,
             listener: None,
             remarks: Vec::new(),
             earlier_rays: 0,
@@ -172,6 +189,11 @@ impl<'a> Watcher<'a> {
         self.heartbeat = None;
         self.bar.finish_and_clear();
         self.seconds()
+    }
+
+    /// When its time is up.
+    pub(crate) fn clock(&self) -> Clock {
+        Clock { end: self.deadline }
     }
 
     fn seconds(&self) -> f64 {
@@ -225,14 +247,22 @@ impl<'a> Watcher<'a> {
 
     fn control(&mut self, event: Event<'_>) -> Control {
         let heard = self.listener.as_mut().map(|listener| listener(event));
-        if heard == Some(Control::Stop) {
-            self.stopped = Some(Stopped::Listener);
-        } else if heard.is_none() && interrupt::requested() {
-            self.stopped = Some(Stopped::Interrupt);
-        } else if self.end_of_step().is_some_and(|end| Instant::now() >= end) {
-            self.stopped = Some(Stopped::Time);
+        let is_late = || self.end_of_step().is_some_and(|end| Instant::now() >= end);
+        let reason = match heard {
+            Some(Control::Stop) => Some(Stopped::Listener),
+            None if interrupt::requested() => Some(Stopped::Interrupt),
+            _ => is_late().then_some(Stopped::Time),
+        };
+        self.stopped = reason.or(self.stopped);
+        if reason.is_none() {
+            return Control::Continue;
         }
-        if self.stopped.is_some() { Control::Stop } else { Control::Continue }
+        let told = *self.told.get_or_insert_with(Instant::now);
+        let has_values = match event {
+            Event::Progress(progress) => progress.samples > 0,
+            Event::Checkpoint(_) => true,
+        };
+        if has_values || told.elapsed() >= GRACE { Control::Stop } else { Control::Continue }
     }
 }
 
@@ -286,7 +316,7 @@ impl Observer for Watcher<'_> {
         }
         let elapsed_s = self.start.elapsed().as_secs_f64();
         let of_time = self.deadline.map(|end| elapsed_s / (end - self.start).as_secs_f64());
-        // Past its time a run goes on to its first checkpoint.
+        // Past its time a run goes on to its first checkpoint for a moment.
         let done = match of_time.filter(|of_time| *of_time < 1.0) {
             Some(of_time) => Some(progress.done.unwrap_or(0.0).max(of_time)),
             None => progress.done,

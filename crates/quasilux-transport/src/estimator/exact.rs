@@ -3,12 +3,14 @@
 use crate::context::Context;
 use crate::spectrum::Spectrum;
 use crate::stats::targets::Target;
+use crate::stats::watch::Watch;
 use crate::world::vertex::Vertex;
 use crate::world::visibility::{Receiver, ShadowQueue};
-use rayon::prelude::*;
 
 /// Targets whose light from the point-like lights is computed together.
 const TARGETS: usize = 256;
+/// Chunks of them between two words to the observer.
+const AT_ONCE: usize = 16;
 
 /// What a sensor point gets of point-like lights, without sampling, in lx.
 #[derive(Clone, Default)]
@@ -46,14 +48,15 @@ impl Exact {
 }
 
 /// Light of the point-like lights, straight and by mirrors, at each target that is a point: all of
-/// them tested.
+/// them tested. `None` when the observer stopped it.
 pub(crate) fn exact<S: Spectrum>(
     context: &Context<'_, S>,
     targets: &[Target],
     rays: &mut u64,
-) -> Vec<Exact> {
-    let mut exact = vec![Exact::new(context.listed_terms); targets.len()];
-    let light = |(targets, exact): (&[Target], &mut [Exact])| {
+    watch: &mut Watch<'_>,
+) -> Option<Vec<Exact>> {
+    let light = |targets: &&[Target]| {
+        let mut exact = vec![Exact::new(context.listed_terms); targets.len()];
         let receiver = |(who, target): (u32, &Target)| match *target {
             Target::Point { position, normal: n } => {
                 let from = context.world.ray_origin_of_sensor(position, n);
@@ -61,7 +64,7 @@ pub(crate) fn exact<S: Spectrum>(
             }
             Target::Cell { .. } => None,
         };
-        let receivers: Vec<Receiver<'_, S>> = (0..).zip(targets).filter_map(receiver).collect();
+        let receivers: Vec<Receiver<'_, S>> = (0..).zip(*targets).filter_map(receiver).collect();
         let mut shadows = ShadowQueue::default();
         shadows.max_bounces = context.max_bounces.unwrap_or(u32::MAX);
         let mut receive =
@@ -69,9 +72,15 @@ pub(crate) fn exact<S: Spectrum>(
         let pointlikes = &context.lights.pointlikes;
         pointlikes.all(&context.world, &receivers, &mut shadows, &mut receive);
         context.images.all(&context.world, pointlikes, &receivers, &mut shadows, &mut receive);
-        shadows.rays
+        (exact, shadows.rays)
     };
-    let chunks = targets.par_chunks(TARGETS).zip(exact.par_chunks_mut(TARGETS));
-    *rays += chunks.map(light).sum::<u64>();
-    exact
+    let chunks: Vec<&[Target]> = targets.chunks(TARGETS).collect();
+    let mut all = Vec::with_capacity(targets.len());
+    for chunks in chunks.chunks(AT_ONCE) {
+        for (exact, of_chunk) in watch.map_in_parts(chunks, light)? {
+            all.extend(exact);
+            *rays += of_chunk;
+        }
+    }
+    Some(all)
 }

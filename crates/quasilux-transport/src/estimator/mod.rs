@@ -75,20 +75,25 @@ pub(crate) trait Estimator {
     fn first_checkpoint(&self) -> u64;
 }
 
-/// The estimator of the settings, its plan made.
+/// Where nobody stops it, or is obeyed.
+pub(crate) const UNSTOPPED: &str = "nobody stops it";
+
+/// The estimator of the settings, its plan made; `None` when the observer stopped it before that.
 pub(crate) fn new_estimator<'a, S: Spectrum>(
     context: &'a Context<'a, S>,
     scene: &'a Scene,
     settings: &Settings,
     watch: &mut Watch<'_>,
-) -> Box<dyn Estimator + 'a> {
-    match settings.estimator {
+) -> Option<Box<dyn Estimator + 'a>> {
+    let estimator: Box<dyn Estimator + 'a> = match settings.estimator {
         EstimatorKind::Photon => Box::new(PhotonEstimator::new(context, scene, settings)),
         EstimatorKind::Auto | EstimatorKind::Bidirectional => {
-            Box::new(BidirectionalEstimator::new(context, scene, settings))
+            Box::new(BidirectionalEstimator::new(context, scene, settings, watch)?)
         }
         EstimatorKind::Path | EstimatorKind::BidirectionalMap => {
-            Box::new(PathEstimator::new(context, scene, settings, watch))
+            Box::new(PathEstimator::new(context, scene, settings, watch)?)
         }
-    }
+    };
+    // A plan that was stopped half-way is none.
+    (!watch.has_stopped()).then_some(estimator)
 }

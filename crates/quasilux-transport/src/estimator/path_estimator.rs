@@ -86,17 +86,18 @@ struct Costs {
 }
 
 impl<'a, S: Spectrum> PathEstimator<'a, S> {
-    /// Paths as the settings say, alone or on a map.
+    /// Paths as the settings say, alone or on a map; `None` when the observer stopped it before it
+    /// was ready.
     pub(crate) fn new(
         context: &'a Context<'a, S>,
         scene: &'a Scene,
         settings: &Settings,
         watch: &mut Watch<'_>,
-    ) -> Self {
+    ) -> Option<Self> {
         let targets = targets(scene);
         let replicates = settings.effective_replicates();
         let mut work = WorkCounts::default();
-        let mut exact = exact(context, &targets, &mut work.rays);
+        let mut exact = exact(context, &targets, &mut work.rays, watch)?;
         let mut invalid_points = 0;
         for value_lx in exact.iter_mut().flat_map(Exact::invalid) {
             // A light right at a sensor point has no illuminance to speak of.
@@ -107,7 +108,7 @@ impl<'a, S: Spectrum> PathEstimator<'a, S> {
         let quantum = Quantum::for_reference(context.lights.reference_lx(&context.world));
         let Prepared { end, counts: photons } =
             PathEnd::prepare(context, settings, &targets, watch);
-        Self {
+        Some(Self {
             context,
             scene,
             caustics: CausticMap::new(context, settings, &targets),
@@ -130,7 +131,7 @@ impl<'a, S: Spectrum> PathEstimator<'a, S> {
             contribution: Costs::default(),
             invalid_points,
             samples_direct,
-        }
+        })
     }
 
     /// Traces the paths `piece`, of those that are left when the paths `indices` of all growing

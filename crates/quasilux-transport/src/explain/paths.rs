@@ -2,6 +2,7 @@
 
 use super::{Pilot, Points, SampleKind, SampleSource};
 use crate::context::{Context, Stream};
+use crate::estimator::UNSTOPPED;
 use crate::estimator::exact::exact;
 use crate::path::end::PathEnd;
 use crate::path::sections::Section;
@@ -54,7 +55,7 @@ impl<'s, S: Spectrum> PathSource<'s, S> {
         let mut observer = ();
         let mut watch = Watch::new(&mut observer);
         let one = Settings { replicates: 1, ..settings.clone() };
-        let exact = exact(context, &all, &mut 0);
+        let exact = exact(context, &all, &mut 0, &mut watch).expect(UNSTOPPED);
         let targets = numbers.iter().map(|&number| PathTarget {
             number: number as u64,
             target: all[number],

@@ -3,7 +3,7 @@
 use crate::codec::{Reader, StateError};
 use crate::context::Context;
 use crate::estimator::block::BlockFrame;
-use crate::estimator::new_estimator;
+use crate::estimator::{UNSTOPPED, new_estimator};
 use crate::prepared::PreparedScene;
 use crate::settings::Settings;
 use crate::spectrum::{Spectrum, is_grey};
@@ -53,7 +53,8 @@ fn serve<S: Spectrum, T>(
     let scene = prepared.scene();
     let context = Context::<S>::new(prepared, settings);
     let mut nobody = ();
-    let mut estimator = new_estimator(&context, scene, settings, &mut Watch::new(&mut nobody));
+    let watch = &mut Watch::new(&mut nobody);
+    let mut estimator = new_estimator(&context, scene, settings, watch).expect(UNSTOPPED);
     let decisions = estimator.decisions().digest;
     let mut trace = |frame: &[u8], block: Range<u64>| {
         let mut from = Reader::new(frame);

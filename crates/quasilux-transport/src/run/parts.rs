@@ -8,7 +8,7 @@
 
 use crate::codec::{Reader, StateError, Writer};
 use crate::context::Context;
-use crate::estimator::{Estimator, new_estimator};
+use crate::estimator::{Estimator, UNSTOPPED, new_estimator};
 use crate::prepared::PreparedScene;
 use crate::run::pictures::add_pictures;
 use crate::run::simulate::{Look, look};
@@ -30,7 +30,9 @@ pub fn decide(scene: &Scene, settings: &Settings) -> Decisions {
     fn decide_in<S: Spectrum>(scene: &Scene, settings: &Settings) -> Decisions {
         let context = Context::<S>::new(scene, settings);
         let mut nobody = ();
-        new_estimator(&context, scene, settings, &mut Watch::new(&mut nobody)).decisions()
+        new_estimator(&context, scene, settings, &mut Watch::new(&mut nobody))
+            .expect(UNSTOPPED)
+            .decisions()
     }
     if is_grey(scene) {
         decide_in::<f64>(scene, settings)
@@ -133,9 +135,9 @@ fn trace<S: Spectrum>(
 ) -> Option<Vec<u8>> {
     let scene = prepared.scene();
     let context = Context::<S>::new(prepared, settings);
-    let mut estimator = new_estimator(&context, scene, settings, watch);
     // There is no checkpoint before the end, and so no result if it is stopped.
     watch.obey();
+    let mut estimator = new_estimator(&context, scene, settings, watch)?;
     let mut out = Writer::default();
     out.bytes(&estimator.decisions().digest);
     out.bytes(&fingerprint(scene, settings, samples));
@@ -157,7 +159,7 @@ fn put_together<'p, S: Spectrum>(
 ) -> Result<Estimates, MergeError> {
     let scene = prepared.scene();
     let context = Context::<S>::new(prepared, settings);
-    let mut estimator = new_estimator(&context, scene, settings, watch);
+    let mut estimator = new_estimator(&context, scene, settings, watch).expect(UNSTOPPED);
     let decisions = estimator.decisions();
     let expected = Expected {
         decisions: &decisions.digest,

@@ -167,21 +167,15 @@ impl<'a, S: Spectrum> Darkroom<'a, S> {
     }
 
     /// Has so many photons in all look for light that no path finds; `None` where the observer
-    /// stopped them, if it may.
+    /// stopped them.
     pub(super) fn trace_caustics(
         &mut self,
         photons: u64,
-        may_stop: bool,
         work: &mut WorkCounts,
         watch: &mut Watch<'_>,
     ) -> Option<()> {
         let Some(caustics) = &mut self.caustics else { return Some(()) };
-        let mut nobody = ();
-        let rays = match may_stop {
-            true => caustics.grow(self.context, photons, watch),
-            false => caustics.grow(self.context, photons, &mut Watch::new(&mut nobody)),
-        };
-        work.rays += rays?;
+        work.rays += caustics.grow(self.context, photons, watch)?;
         Some(())
     }
 

@@ -29,7 +29,7 @@ const ROUNDING: f64 = 1e-12;
 const ALWAYS: &str = "only workers can fail";
 
 /// Simulates light in a scene until every sensor point reaches the wanted tolerance, a limit comes
-/// first, or the observer stops it; at least up to the first checkpoint. A point that is done
+/// first, or the observer stops it: before the first checkpoint no value is a number then. A point that is done
 /// before the others gets no more samples: what it has then is what it would have, were this the
 /// end. Then takes the pictures of the cameras, with a fixed number of paths a pixel.
 ///
@@ -128,7 +128,12 @@ fn run<S: Spectrum>(
     mut watch: Watch<'_>,
 ) -> Result<Option<Estimates>, StateError> {
     watch.limit_rays(settings.max_rays);
-    let mut estimator = new_estimator(context, scene, settings, &mut watch);
+    watch.obey();
+    let Some(mut estimator) = new_estimator(context, scene, settings, &mut watch) else {
+        let mut estimates = Estimates::nothing(scene, settings);
+        add_pictures(context, scene, settings, &mut estimates, &mut watch);
+        return Ok(Some(estimates));
+    };
     let first = estimator.first_checkpoint();
     // Without sensors there is nothing to wait for.
     let limit = if scene.sensors.is_empty() { Some(1) } else { settings.max_samples };
@@ -154,7 +159,7 @@ fn run<S: Spectrum>(
     if watch.has_failed() {
         return Ok(None);
     }
-    let mut estimates = course.last.expect("a run is never stopped before its first checkpoint");
+    let mut estimates = course.last.unwrap_or_else(|| Estimates::nothing(scene, settings));
     // The last checkpoint may have come from a state.
     estimates.decisions = decisions;
     add_pictures(context, scene, settings, &mut estimates, &mut watch);

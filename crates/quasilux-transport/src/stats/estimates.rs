@@ -1,12 +1,14 @@
 //! What a simulation knows at a checkpoint: figures of each replicate, and the confidence intervals
 //! of points, averages and pictures that follow from them.
 
+use crate::settings::Settings;
 use crate::stats::decisions::Decisions;
 use crate::stats::interval::{Interval, t_quantile_for};
 use crate::stats::minimum::{interval_of_minimum, ratios};
 use crate::stats::picture::CameraEstimates;
 use crate::stats::unseen::{UnseenLight, factor_of_all};
 use quasilux_sampling::DimensionHistogram;
+use quasilux_scene::{Scene, Sensor};
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
@@ -129,6 +131,37 @@ impl SensorEstimates {
 }
 
 impl Estimates {
+    /// Of a run that was stopped before its first checkpoint: no value is a number.
+    pub(crate) fn nothing(scene: &Scene, settings: &Settings) -> Self {
+        let of_sensor = |sensor: &Sensor| {
+            let points = sensor.len();
+            let replicates = settings.effective_replicates() as usize;
+            let unknown_lx = vec![vec![f64::NAN; points]; replicates];
+            let terms = if settings.list_terms > 0 { settings.list_terms + 1 } else { 0 };
+            let term =
+                TermEstimates { replicate_lx: unknown_lx.clone(), resolved: vec![false; points] };
+            SensorEstimates {
+                replicate_lx: unknown_lx,
+                direct_lx: vec![f64::NAN; points],
+                resolved: vec![false; points],
+                missed: vec![false; points],
+                samples: vec![0; points],
+                terms: vec![term; terms as usize],
+                unseen: settings.estimator.is_bounded().then(|| UnseenLight::unknown(points)),
+            }
+        };
+        let warning = "the run was stopped before each sensor point had a sample in all replicates: \
+                       no value is known";
+        Self {
+            sensors: scene.sensors.iter().map(of_sensor).collect(),
+            confidence: settings.confidence,
+            miss_probability: 1.0 - settings.confidence,
+            unresolved_points: scene.sensors.iter().map(|it| it.len() as u64).sum(),
+            warnings: vec![warning.to_owned()],
+            ..Self::default()
+        }
+    }
+
     /// The interval of an average or another figure that is linear in the values of one sensor, in
     /// lx: `statistic` maps them to it. No half-width where nothing was found at a point, here and
     /// in the other figures of all points: how much is missing there nobody knows.

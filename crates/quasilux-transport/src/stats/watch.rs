@@ -4,8 +4,13 @@ use crate::codec::{Reader, StateError, Writer};
 use crate::stats::estimates::Estimates;
 use crate::stats::observer::{Control, Observer, PictureProgress, Progress, Snapshot};
 use crate::stats::workers::{self, BlockSize, Received, Workers};
+use rayon::prelude::*;
 use serde::Serialize;
 use std::ops::Range;
+
+/// Sensor points that are looked at between two words to the observer before the first sample: some
+/// tenths of a second, where each takes longest.
+const PART: usize = 1 << 12;
 
 /// Tells the observer how far a run is, and remembers whether it said stop.
 pub(crate) struct Watch<'o> {
@@ -218,7 +223,6 @@ impl<'o> Watch<'o> {
 
     /// Knows of the last checkpoint.
     pub(crate) fn begin_at(&mut self, estimates: &Estimates, largest: Option<f64>) {
-        self.obeys = true;
         self.progress.samples = estimates.samples;
         self.progress.rays = self.progress.rays.max(estimates.rays);
         self.progress.slope = estimates.convergence.slope;
@@ -227,9 +231,32 @@ impl<'o> Watch<'o> {
         self.progress.largest_relative_half_width = largest;
     }
 
-    /// Lets the observer stop the run from here on: by itself it may after the first checkpoint.
+    /// Lets the observer stop the run from here on.
     pub(crate) fn obey(&mut self) {
         self.obeys = true;
+    }
+
+    /// Whether the observer has stopped it.
+    pub(crate) fn has_stopped(&self) -> bool {
+        self.stopped
+    }
+
+    /// Work on each of many things, in the threads of the pool, part by part; `None` when the
+    /// observer stopped it between two parts.
+    pub(crate) fn map_in_parts<T: Sync, R: Send>(
+        &mut self,
+        things: &[T],
+        work: impl Fn(&T) -> R + Sync,
+    ) -> Option<Vec<R>> {
+        let mut done = Vec::with_capacity(things.len());
+        for part in things.chunks(PART) {
+            done.par_extend(part.par_iter().map(&work));
+            let _ = self.tick(0, 0, 0);
+            if self.stopped {
+                return None;
+            }
+        }
+        Some(done)
     }
 
     /// Ends the run, past its first checkpoint, rather than trace more rays.
@@ -258,8 +285,8 @@ impl<'o> Watch<'o> {
         }
     }
 
-    /// Counts work. Whether to go on: before the first checkpoint always, and to the end of a piece
-    /// after which a state can be kept, unless there are too many rays, which no state may hold.
+    /// Counts work. Whether to go on: always before the run [obeys](Self::obey), and to the end of a
+    /// piece after which a state can be kept, unless there are too many rays, which no state may hold.
     #[must_use]
     pub(crate) fn tick(&mut self, photons: u64, paths: u64, rays: u64) -> bool {
         let so_far = &mut self.progress;

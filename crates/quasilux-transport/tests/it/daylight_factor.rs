@@ -27,7 +27,7 @@ fn illuminances(scene: &Scene, seed: u64) -> Vec<Interval> {
 fn components(scene: &Scene, seed: u64) -> Option<Vec<DaylightComponents>> {
     let found = |it: &Interval| FoundIlluminance { lx: it.value, samples: 1 << 12 };
     let found: Vec<FoundIlluminance> = illuminances(scene, seed).iter().map(found).collect();
-    daylight_components(scene, &settings(seed), &found)
+    daylight_components(scene, &settings(seed), &found, &|| true)
 }
 
 /// What fills the window: nothing and a name, a clear pane, or a diffusing sheet.
@@ -128,10 +128,10 @@ fn other_light_has_no_components() {
     scene.environment = Some(environment.clone());
     assert!(components(&scene, 1).is_some());
     let with_lamp = Scene { lights: vec![point_light(DVec3::ONE, 100.0)], ..scene.clone() };
-    assert_eq!(daylight_components(&with_lamp, &settings(1), &[]), None);
+    assert_eq!(daylight_components(&with_lamp, &settings(1), &[], &|| true), None);
     let centre = SkyPoint { altitude_deg: 40.0, azimuth_deg: 180.0 };
     let sun = Sun { normal_illuminance_lx: 1000.0, centre };
     let environment = Environment { sun: Some(sun), ..environment };
     let sunny = Scene { environment: Some(environment), ..scene };
-    assert_eq!(daylight_components(&sunny, &settings(1), &[]), None);
+    assert_eq!(daylight_components(&sunny, &settings(1), &[], &|| true), None);
 }

@@ -41,9 +41,7 @@ pub(crate) fn make_wall(scene: &mut Scene, first: usize, bsdf: Bsdf) {
 fn run(scene: &Scene, estimator: EstimatorKind, max_bounces: Option<u32>) -> Estimates {
     let settings = Settings { estimator, max_bounces, rel_tol: 0.01, ..Settings::default() };
     let estimates = simulate(scene, &settings, &mut ());
-    let values = estimates.point_intervals(0);
-    let unseen = &estimates.sensors[0].unseen;
-    assert!(estimates.tolerance_reached, "{estimator:?}: {values:?}, {unseen:?} {}", estimates.samples);
+    assert!(estimates.tolerance_reached, "{estimator:?}: {:?}", estimates.warnings);
     assert_eq!(estimates.invalid_contributions, 0, "{estimator:?}");
     estimates
 }

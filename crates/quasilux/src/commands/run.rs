@@ -145,10 +145,13 @@ pub(crate) fn work(
     let admitted = pool.install(|| prepare(project));
     let Admitted { prepared, mut findings } = door.admit(admitted, &watcher)?;
     let outcome = pool.install(|| job(&prepared, &mut watcher));
+    interrupt::keep_results();
     let seconds = watcher.finish();
     let Some(estimates) = outcome? else { return Ok(None) };
     findings.extend(pool.install(|| in_the_dark(project, &prepared, &estimates, &findings)));
-    let daylight = pool.install(|| daylight(&prepared, settings, &estimates));
+    let clock = watcher.clock();
+    let goes_on = || !interrupt::requested() && !clock.is_late();
+    let daylight = pool.install(|| daylight(&prepared, settings, &estimates, &goes_on));
     let samples = estimates.convergence.samples.unwrap_or(estimates.samples);
     let facts = RunFacts {
         version: VERSION.to_owned(),
@@ -179,7 +182,11 @@ fn daylight(
     prepared: &PreparedScene<'_>,
     settings: &Settings,
     estimates: &Estimates,
+    goes_on: &(dyn Fn() -> bool + Sync),
 ) -> Option<Vec<DaylightComponents>> {
+    if estimates.samples == 0 {
+        return None;
+    }
     let sensors = 0..estimates.sensors.len();
     let of_sensor = |sensor: usize| {
         let intervals = estimates.point_intervals(sensor);
@@ -190,7 +197,7 @@ fn daylight(
         intervals.into_iter().zip(&estimates.sensors[sensor].samples).map(found)
     };
     let found: Vec<FoundIlluminance> = sensors.flat_map(of_sensor).collect();
-    daylight_components(prepared.clone(), settings, &found)
+    daylight_components(prepared.clone(), settings, &found, goes_on)
 }
 
 /// Why no light was found at some sensor points.

@@ -127,6 +127,53 @@ fn an_interrupt_leaves_results_and_exit_code_130() {
     assert_is_a_samples_run(&folder, &folder.read("interrupt/result.json"), "auto");
 }
 
+/// So many sensor points that not all of them have a sample after a second.
+fn with_many_points(name: &str) -> Folder {
+    let folder = room(name);
+    let project = folder.read("room.toml").replace("counts = [3, 2]", "counts = [100, 100]");
+    folder.write("room.toml", project.replace("replicates = 8", "replicates = 256"));
+    folder
+}
+
+fn assert_nothing_is_known(document: &str) {
+    let document = parsed(document);
+    assert_eq!((&document["run"]["samples"], number(&document, "/run/samples")), (&0.into(), 0.0));
+    assert_eq!(document["run"]["tolerance_reached"], false);
+    let points = document["sensors"][0]["points"].as_array().expect("points");
+    assert!(points.len() == 10_000 && points.iter().all(|it| it["illuminance_lx"].is_null()));
+    let warnings = document["warnings"].to_string();
+    assert!(warnings.contains("stopped before each sensor point had a sample"), "{warnings}");
+}
+
+#[test]
+fn time_holds_before_the_first_checkpoint() {
+    for estimator in ["auto", "path"] {
+        let folder = with_many_points(&format!("limits_at_once_{estimator}"));
+        let more = ["--time", "0.01s", "--estimator", estimator, "--rel-tol", "1e-9"];
+        assert_nothing_is_known(&folder.document("room.toml", "time", &more, 3));
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupt_is_obeyed_before_the_first_checkpoint() {
+    use crate::support::{Run, interrupt};
+
+    let folder = with_many_points("limits_interrupt_at_once");
+    let child = folder
+        .command(&["run", "room.toml", "--out", "interrupt", "--checkpoint", "run.ck"])
+        .spawn()
+        .expect("the program starts");
+    // Written once before the first sample.
+    while !folder.path("run.ck").exists() {
+        std::thread::sleep(std::time::Duration::from_millis(5));
+    }
+    interrupt(&child);
+    let run = Run::new(child.wait_with_output().expect("the program ends"));
+    assert_eq!(run.code, Some(130), "{}", run.stderr);
+    assert_nothing_is_known(&folder.read("interrupt/result.json"));
+}
+
 /// A run that ended early wrote what a run with as many samples writes.
 fn assert_is_a_samples_run(folder: &Folder, document: &str, estimator: &str) {
     let samples = number(&parsed(document), "/run/samples").to_string();

@@ -19,8 +19,8 @@ use crate::lights::SKY_MARGIN;
 use crate::spectrum::Spectrum;
 use crate::stats::targets::Target;
 use crate::stats::unseen::UNSEEN_CONFIDENCE;
+use crate::stats::watch::Watch;
 use crate::world::{Facet, World};
-use rayon::prelude::*;
 use std::f64::consts::PI;
 use surfaces::Surfaces;
 
@@ -74,7 +74,11 @@ struct Kind {
 }
 
 impl Caps {
-    pub(super) fn new<S: Spectrum>(engine: &Engine<'_, '_, S>) -> Self {
+    /// `None` when the observer stopped it.
+    pub(super) fn new<S: Spectrum>(
+        engine: &Engine<'_, '_, S>,
+        watch: &mut Watch<'_>,
+    ) -> Option<Self> {
         let context = engine.context;
         let world = &context.world;
         let surfaces = Surfaces::new(context);
@@ -112,7 +116,7 @@ impl Caps {
                 ..cap
             })
         };
-        let of_targets: Vec<Cap> = engine.receivers.par_iter().map(of_target).collect();
+        let of_targets = watch.map_in_parts(&engine.receivers, of_target)?;
         let of_eye_lx = if has_specular {
             f64::INFINITY
         } else {
@@ -125,7 +129,7 @@ impl Caps {
             let on_cells = of_targets.iter().map(|cap| cap.on_cell_lx).fold(0.0, f64::max);
             kinds.iter().map(of_kind).fold(on_cells, f64::max)
         };
-        Self { of_targets, of_eye_lx }
+        Some(Self { of_targets, of_eye_lx })
     }
 
     /// Of each target, the most in lx that a sample adds to one index. Nothing is known of samples

@@ -10,6 +10,7 @@ use crate::lights::LightKind;
 use crate::spectrum::Spectrum;
 use crate::stats::tally::Quantum;
 use crate::stats::targets::Target;
+use crate::stats::watch::Watch;
 use crate::world::Interaction;
 use glam::DVec3;
 use std::f64::consts::PI;
@@ -31,23 +32,28 @@ pub(super) struct Engine<'l, 'a, S> {
 }
 
 impl<'l, 'a, S: Spectrum> Engine<'l, 'a, S> {
-    pub(super) fn new(context: &'l Context<'a, S>, targets: &[Target]) -> Self {
+    /// `None` when the observer stopped it.
+    pub(super) fn new(
+        context: &'l Context<'a, S>,
+        targets: &[Target],
+        watch: &mut Watch<'_>,
+    ) -> Option<Self> {
         let lights = &context.lights;
         let sources = Sources::new(lights);
         let emitters_lx = lights.emitters.as_ref().map_or(0.0, |it| it.largest_lx());
         let sky_lx = lights.outside.as_ref().map_or(0.0, |it| PI * it.brightest_cd_m2());
         let fluxes = sources.photon_fluxes();
         let area_m2 = largest_disc_m2(&context.world);
-        Self {
+        Some(Self {
             context,
-            receivers: receivers(context, targets),
+            receivers: receivers(context, targets, watch)?,
             emitters_found_by: FoundBy::new(emitters_lx, fluxes.emitters_lm / area_m2),
             sky_found_by: FoundBy::new(sky_lx, fluxes.sky_lm / area_m2),
             may_grow: context.world.may_send_on_more(),
             flux_quantum: Quantum::for_reference(fluxes.most_lm().max(f64::MIN_POSITIVE)),
             fluxes,
             sources,
-        }
+        })
     }
 
     /// Adds a surface to the way of a subpath that came there along `-wo` after so many bounces;

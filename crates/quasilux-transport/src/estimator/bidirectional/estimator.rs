@@ -70,19 +70,25 @@ impl Sums for Costs {
 }
 
 impl<'a, S: Spectrum> BidirectionalEstimator<'a, S> {
-    pub(crate) fn new(context: &'a Context<'a, S>, scene: &'a Scene, settings: &Settings) -> Self {
+    /// `None` when the observer stopped it before it was ready.
+    pub(crate) fn new(
+        context: &'a Context<'a, S>,
+        scene: &'a Scene,
+        settings: &Settings,
+        watch: &mut Watch<'_>,
+    ) -> Option<Self> {
         let targets = targets(scene);
         let mut prepared_rays = 0;
-        let mut exact = exact(context, &targets, &mut prepared_rays);
+        let mut exact = exact(context, &targets, &mut prepared_rays, watch)?;
         let mut invalid_points = 0;
         for value_lx in exact.iter_mut().flat_map(Exact::invalid) {
             // A light right at a sensor point has no illuminance to speak of.
             *value_lx = 0.0;
             invalid_points += 1;
         }
-        let mut engine = Engine::new(context, &targets);
-        prepared_rays += plan_joins(&mut engine);
-        let caps = Caps::new(&engine);
+        let mut engine = Engine::new(context, &targets, watch)?;
+        prepared_rays += plan_joins(&mut engine, watch)?;
+        let caps = Caps::new(&engine, watch)?;
         for (receiver, most_lx) in
             engine.receivers.iter_mut().zip(caps.of_samples_lx(&context.world))
         {
@@ -90,7 +96,7 @@ impl<'a, S: Spectrum> BidirectionalEstimator<'a, S> {
         }
         let replicates = settings.effective_replicates();
         let empty = TargetSums::new(context.listed_terms);
-        Self {
+        Some(Self {
             caps,
             engine,
             scene,
@@ -105,7 +111,7 @@ impl<'a, S: Spectrum> BidirectionalEstimator<'a, S> {
             costs: Costs::default(),
             prepared_rays,
             invalid_points,
-        }
+        })
     }
 
     /// Leaves targets that have an end at that.

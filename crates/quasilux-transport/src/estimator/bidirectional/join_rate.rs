@@ -10,8 +10,8 @@ use super::light_subpath::LightSubpaths;
 use super::plan::Receiver;
 use crate::context::Stream;
 use crate::spectrum::Spectrum;
+use crate::stats::watch::Watch;
 use quasilux_sampling::Sampler;
-use rayon::prelude::*;
 
 /// Joins of a light subpath to each target, on average. Of an eighth, a quarter and a half no one
 /// is the best in rooms of all kinds; a quarter is near it in each.
@@ -22,24 +22,29 @@ const PILOTS: u64 = 128;
 /// Steps of Newton's method at most; it comes from below, and ends by itself.
 const STEPS: usize = 16;
 
-/// Sets the chances of joins of all targets; the number of rays of the pilots.
-pub(super) fn plan_joins<S: Spectrum>(engine: &mut Engine<'_, '_, S>) -> u64 {
+/// Sets the chances of joins of all targets; the number of rays of the pilots. `None` when the
+/// observer stopped it.
+pub(super) fn plan_joins<S: Spectrum>(
+    engine: &mut Engine<'_, '_, S>,
+    watch: &mut Watch<'_>,
+) -> Option<u64> {
     if engine.receivers.is_empty() || engine.context.max_bounces == Some(0) {
-        return 0;
+        return Some(0);
     }
     let points = engine.context.points_of_trial(0, Stream::SubpathPilots);
     let samplers = (0..PILOTS).map(|index| Sampler::new(&points, index));
     let pilots = LightSubpaths::trace(engine, samplers, |_| ());
     let joins = JOINS * PILOTS as f64;
-    let plan = |per_m2: &mut Vec<f64>, receiver: &mut Receiver| {
-        let all = 0..pilots.vertices.len();
-        pilots.places.per_m2(all, receiver.n, receiver.position, per_m2);
-        if let Some(per_sure_m2) = rate(per_m2, joins) {
-            receiver.per_sure_m2 = per_sure_m2;
-        }
+    let plan = |receiver: &Receiver| {
+        let (all, mut per_m2) = (0..pilots.vertices.len(), Vec::new());
+        pilots.places.per_m2(all, receiver.n, receiver.position, &mut per_m2);
+        rate(&per_m2, joins)
     };
-    engine.receivers.par_iter_mut().for_each_init(Vec::new, plan);
-    pilots.rays
+    let rates = watch.map_in_parts(&engine.receivers, plan)?;
+    for (receiver, rate) in engine.receivers.iter_mut().zip(rates) {
+        receiver.per_sure_m2 = rate.unwrap_or(receiver.per_sure_m2);
+    }
+    Some(pilots.rays)
 }
 
 /// The c with `sum min(1, c v) = joins`, or a large one where that is never reached; `None` where

@@ -12,6 +12,7 @@ use crate::bsdf::Bsdf;
 use crate::context::Context;
 use crate::spectrum::Spectrum;
 use crate::stats::targets::Target;
+use crate::stats::watch::Watch;
 use crate::world::grid_plane::GridPlane;
 use crate::world::{Interaction, RayOrigin, World};
 use glam::DVec3;
@@ -101,16 +102,17 @@ pub(super) struct Receiver {
     pub(super) most_lx: f64,
 }
 
-/// Those of all targets.
+/// Those of all targets; `None` when the observer stopped it.
 pub(super) fn receivers<S: Spectrum>(
     context: &Context<'_, S>,
     targets: &[Target],
-) -> Vec<Receiver> {
+    watch: &mut Watch<'_>,
+) -> Option<Vec<Receiver>> {
     let world = &context.world;
     let area_m2: f64 = world.facets.iter().map(|facet| facet.area_m2()).sum();
     let emitting = EmittingFacets::new(world);
     let most_scale = world.bsdfs().iter().map(Bsdf::scale_inside).fold(1.0, f64::max);
-    targets.iter().map(|it| Receiver::new(context, it, area_m2, most_scale, &emitting)).collect()
+    watch.map_in_parts(targets, |it| Receiver::new(context, it, area_m2, most_scale, &emitting))
 }
 
 /// The chance to go on from a surface with this number in an eye path over what remains of its

@@ -5,6 +5,7 @@
 //! plane, and nothing mirrors, the next is another: with r the largest s of all others, `n <= 1 + s
 //! (1 + r n)`. Where eye paths favour a surface more of them go on, and each adds as much less.
 
+use crate::bsdf::Bsdf;
 use crate::spectrum::Spectrum;
 use crate::world::{Facet, World};
 
@@ -30,9 +31,9 @@ pub(super) fn samples_of_subpaths<S: Spectrum>(world: &World<S>) -> f64 {
 /// front comes there again by two specular surfaces, not of one plane, at least.
 pub(super) fn crossings_of_discs<S: Spectrum>(world: &World<S>) -> f64 {
     let specular = || world.facets.iter().filter(|facet| world.bsdf_of(facet).is_specular());
-    let turned = |facet: &Facet| match world.bsdf_of(facet).transmits() {
-        true => TURNED_BY_GLASS,
-        false => world.most_survives_at(facet).min(1.0),
+    let turned = |facet: &Facet| match world.bsdf_of(facet) {
+        Bsdf::Dielectric(_) | Bsdf::Pane(_) => TURNED_BY_GLASS,
+        _ => world.most_survives_at(facet).min(1.0),
     };
     let Some(first) = specular().max_by(|a, b| turned(a).total_cmp(&turned(b))) else { return 1.0 };
     let others = specular().filter(|facet| is_off_plane(world, first, facet));
@@ -52,4 +53,33 @@ pub(super) fn samples_at_emitters<S: Spectrum>(world: &World<S>, subpaths: f64) 
     let emitting = world.facets.iter().filter(|facet| facet.emitted_cd_m2 > 0.0);
     let most = emitting.map(|facet| world.most_survives_at(facet).min(1.0)).fold(0.0, f64::max);
     1.0 + if most > 0.0 { most * subpaths } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenes::{diffuse, mirror, room};
+    use glam::DVec3;
+    use quasilux_bvh::SimdLevel;
+    use quasilux_scene::bsdf::Dielectric;
+    use quasilux_scene::{Bsdf as SceneBsdf, Material};
+
+    /// Walls of this kind in two planes.
+    fn crossings(bsdf: &SceneBsdf) -> f64 {
+        let mut scene = room(DVec3::ONE, diffuse(0.5));
+        for first in [4, 6] {
+            scene.mesh.material_of[first..first + 2].fill(scene.materials.len() as u32);
+            scene.materials.push(Material { name: format!("wall {first}"), bsdf: bsdf.clone() });
+        }
+        crossings_of_discs(&World::<f64>::new(&scene, SimdLevel::fastest()))
+    }
+
+    /// By the geometric series of what is turned back at both.
+    #[test]
+    fn a_photon_is_turned_back_by_mirrors_and_hardly_by_glass() {
+        assert!((crossings(&diffuse(0.9)) - 1.0).abs() < 1e-12);
+        assert!((crossings(&mirror(0.5)) - 1.0 / 0.75).abs() < 1e-12);
+        let glass = SceneBsdf::Dielectric(Dielectric { eta: 1.5 });
+        assert!((crossings(&glass) - 1.0 / (1.0 - 0.15 * 0.15)).abs() < 1e-12);
+    }
 }

@@ -210,8 +210,8 @@ fn simulation() {
                 "\"auto\"",
             ]),
             Case::new("an estimator that is gone")
-                .replace("rel_tol = 0.5", "estimator = \"selected\"")
-                .says(&["project.toml:32:13:", "\"selected\" is gone", "\"auto\""]),
+                .replace("estimator = \"path\"", "estimator = \"selected\"")
+                .says(&["project.toml:31:13:", "\"selected\" is gone", "\"auto\""]),
         ],
     );
 }

@@ -11,6 +11,7 @@ use crate::lights::Asking;
 use crate::scenes::{diffuse, point_light, points, room};
 use crate::settings::{EstimatorKind, Settings};
 use crate::stats::targets::targets;
+use crate::stats::watch::Watch;
 use crate::world::Interaction;
 use crate::world::frame::Frame;
 use glam::DVec3;
@@ -201,7 +202,9 @@ fn no_path_of_one_technique_passes_its_cap() {
     for number in 0..SCENES {
         let scene = dice.scene();
         let context: Context<'_, f64> = Context::new(&scene, &settings);
-        let engine = Engine::new(&context, &targets(&scene));
+        let mut nobody = ();
+        let watch = &mut Watch::new(&mut nobody);
+        let engine = Engine::new(&context, &targets(&scene), watch).expect("nobody stops it");
         let surfaces = Surfaces::new(&context);
         let is_lambertian = !context.world.bsdfs().iter().any(is_narrow);
         let mut check = |what: &str, found: f64, cap: f64| {
