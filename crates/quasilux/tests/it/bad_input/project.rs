@@ -211,7 +211,7 @@ fn simulation() {
             ]),
             Case::new("an estimator that is gone")
                 .replace("estimator = \"path\"", "estimator = \"selected\"")
-                .says(&["project.toml:31:13:", "\"selected\" is gone", "\"auto\""]),
+                .says(&["project.toml:29:13:", "\"selected\" is gone", "\"auto\""]),
         ],
     );
 }
