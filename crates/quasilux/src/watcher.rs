@@ -27,7 +27,7 @@ const LOOK_SHARE: u32 = 50;
 /// The same for keeping the run.
 const KEEPING_SHARE: u32 = 30;
 /// A run that is told to stop before it has any value gets so much longer.
-const GRACE: Duration = Duration::from_millis(500);
+const GRACE: Duration = Duration::from_millis(250);
 /// Of the time that a run may take, sensors get this share where there are cameras too.
 const SENSORS_SHARE: f64 = 0.5;
 

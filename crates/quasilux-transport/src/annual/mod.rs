@@ -23,4 +23,4 @@ mod year;
 
 pub use results::{PointOfYear, YearProgress, YearWork};
 pub use sunlit::{seen_suns, sunlit_points};
-pub use year::{ClosedHours, YearHours, simulate_year};
+pub use year::{ClosedHours, YearHours, YearObserver, YearRun, simulate_year};

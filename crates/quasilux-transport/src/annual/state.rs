@@ -16,6 +16,7 @@ use crate::spectrum::Spectrum;
 use crate::stats::interval::t_quantile_for;
 use crate::stats::targets::Target;
 use crate::stats::unseen::UNSEEN_CONFIDENCE;
+use crate::stats::watch::split;
 use quasilux_scene::Environment;
 use quasilux_sky::{TabulatedSky, WeatherSky};
 use rayon::prelude::*;
@@ -27,6 +28,8 @@ const MOST: u64 = 1 << 16;
 const SLOPE: f64 = -0.6;
 /// From one look to the next the number of paths grows by this factor at most.
 const GROWTH: f64 = 16.0;
+/// Paths between two questions whether to go on.
+const AT_ONCE: u64 = 1 << 12;
 /// Hours that say whether a point is known well enough.
 const PROBED_HOURS: usize = 256;
 
@@ -137,12 +140,14 @@ impl<'y, S: Spectrum> State<'y, S> {
         }
     }
 
-    /// Traces the points of a block until all are done.
+    /// Traces the points of a block until all are done, or somebody says that it does not go on:
+    /// then they are no use.
     pub(super) fn simulate<'t>(
         &self,
         first: usize,
         targets: &'t [Target],
         work: &mut YearWork,
+        goes_on: &(dyn Fn() -> bool + Sync),
     ) -> Vec<PointInWork<'t>> {
         let replicates = self.meshes.len() as u32;
         let begin = |(number, target): (usize, &'t Target)| {
@@ -160,8 +165,8 @@ impl<'y, S: Spectrum> State<'y, S> {
         };
         let mut points: Vec<PointInWork<'t>> = targets.par_iter().enumerate().map(begin).collect();
         work.rays += points.iter().map(|point| point.disks.deciding_rays).sum::<u64>();
-        while points.iter().any(PointInWork::is_open) {
-            self.trace(&mut points, work);
+        while points.iter().any(PointInWork::is_open) && goes_on() {
+            self.trace(&mut points, work, goes_on);
             self.look(&mut points);
         }
         points
@@ -182,7 +187,12 @@ impl<'y, S: Spectrum> State<'y, S> {
     }
 
     /// Traces the points that are open up to their goals.
-    fn trace(&self, points: &mut [PointInWork<'_>], work: &mut YearWork) {
+    fn trace(
+        &self,
+        points: &mut [PointInWork<'_>],
+        work: &mut YearWork,
+        goes_on: &(dyn Fn() -> bool + Sync),
+    ) {
         let look_at_suns = |point: &mut PointInWork<'_>| {
             let PointInWork { number, target, disks, goal, .. } = point;
             let replicates = 0..self.meshes.len() as u32;
@@ -202,9 +212,12 @@ impl<'y, S: Spectrum> State<'y, S> {
             .collect();
         let trace = |wave: &mut PathWave<S>, Unit { place, sums, goal }: &mut Unit<'_, '_>| {
             let mesh = &self.meshes[place.replicate as usize];
-            let indices = sums.paths..*goal;
-            let paths = indices.end - indices.start;
-            [sums.trace(self.context, mesh, *place, indices, wave), paths]
+            let mut counts = [0; 2];
+            for indices in split(sums.paths..*goal, AT_ONCE).take_while(|_| goes_on()) {
+                counts[1] += indices.end - indices.start;
+                counts[0] += sums.trace(self.context, mesh, *place, indices, wave);
+            }
+            counts
         };
         let counts: Vec<[u64; 2]> =
             units.par_iter_mut().map_init(PathWave::default, trace).collect();

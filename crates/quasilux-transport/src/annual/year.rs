@@ -34,40 +34,62 @@ pub struct ClosedHours<'h> {
     pub is_closed: &'h [bool],
 }
 
-/// Simulates hours for sensor points of a scene, with daylight alone: its lights are off.
-///
-/// `points` are numbered through all sensors, and those behind the last do not count. What a point
-/// gets does not depend on which others are simulated with it, so that a year can be spread and put
-/// together again.
-///
-/// `scene.environment` says where north is, what the ground reflects and where the openings are;
-/// its sky and its sun do not count. Each point gets paths until the root mean square over the
-/// hours of half-width over value is within `settings.rel_tol`, or up to `settings.max_samples`:
-/// both with open and with closed blinds. Where `settings.abs_tol_lx` is more than that tolerance
-/// of a value, it is what the hour is held to.
-///
-/// `digest` makes of each point what is to be kept, in the threads of the rayon pool that the call
-/// is made in; `keep` gets that in the order of the points. `progress` says whether to go on after
-/// a block. The result is a function of scene, hours and settings.
-pub fn simulate_year<T: Send>(
-    scene: &Scene,
-    hours: YearHours<'_>,
-    points: Range<usize>,
-    settings: &Settings,
-    progress: &mut dyn FnMut(YearProgress) -> Control,
-    digest: impl Fn(PointOfYear) -> T + Sync,
-    keep: impl FnMut(T),
-) -> YearWork {
+/// A year of hours at sensor points of a scene, with daylight alone: its lights are off.
+pub struct YearRun<'y, T> {
+    /// Its environment says where north is, what the ground reflects and where the openings are; its
+    /// sky and its sun do not count.
+    pub scene: &'y Scene,
+    /// The hours.
+    pub hours: YearHours<'y>,
+    /// Numbers of points through all sensors; those behind the last do not count. What a point gets
+    /// does not depend on which others are simulated with it, so that a year can be spread and put
+    /// together again.
+    pub points: Range<usize>,
+    /// Each point gets paths until the root mean square over the hours of half-width over value is
+    /// within `rel_tol`, or up to `max_samples`: both with open and with closed blinds. Where
+    /// `abs_tol_lx` is more than that tolerance of a value, it is what the hour is held to.
+    pub settings: &'y Settings,
+    /// Makes of each point what is to be kept, in the threads of the rayon pool that the run is
+    /// made in.
+    pub digest: &'y (dyn Fn(PointOfYear) -> T + Sync),
+    /// Asked many times a second, in the same threads: where it says no, the run ends without the
+    /// block that it is at.
+    pub goes_on: &'y (dyn Fn() -> bool + Sync),
+}
+
+/// Who follows a year.
+pub trait YearObserver<T> {
+    /// Gets what was made of each point, in their order.
+    fn keep(&mut self, kept: T);
+
+    /// Says whether to go on after a block of points, all of which are kept.
+    fn progress(&mut self, progress: YearProgress) -> Control;
+}
+
+/// Keeps all, and goes on to the end.
+impl<T> YearObserver<T> for Vec<T> {
+    fn keep(&mut self, kept: T) {
+        self.push(kept);
+    }
+
+    fn progress(&mut self, _progress: YearProgress) -> Control {
+        Control::Continue
+    }
+}
+
+/// Simulates a year, block by block. The result is a function of scene, hours and settings.
+pub fn simulate_year<T: Send>(run: YearRun<'_, T>, observer: &mut dyn YearObserver<T>) -> YearWork {
+    let YearRun { scene, hours, .. } = run;
     let Some(environment) = &scene.environment else { return YearWork::default() };
     let closed = hours.closed.filter(|closed| closed.is_closed.contains(&true));
     let open = lit(scene, environment);
     let closed_scene = closed.map(|closed| lit(closed.scene, environment));
     let room = Room { environment, open: &open, closed: closed_scene.as_ref() };
-    let hours = YearHours { closed, ..hours };
+    let run = YearRun { hours: YearHours { closed, ..hours }, ..run };
     if is_grey(&open) && closed_scene.as_ref().is_none_or(is_grey) {
-        run::<f64, T>(room, hours, points, settings, progress, digest, keep)
+        simulate::<f64, T>(room, run, observer)
     } else {
-        run::<Rgb, T>(room, hours, points, settings, progress, digest, keep)
+        simulate::<Rgb, T>(room, run, observer)
     }
 }
 
@@ -89,16 +111,13 @@ struct Room<'r> {
     closed: Option<&'r Scene>,
 }
 
-fn run<S: Spectrum, T: Send>(
+fn simulate<S: Spectrum, T: Send>(
     room: Room<'_>,
-    hours: YearHours<'_>,
-    points: Range<usize>,
-    settings: &Settings,
-    progress: &mut dyn FnMut(YearProgress) -> Control,
-    digest: impl Fn(PointOfYear) -> T + Sync,
-    mut keep: impl FnMut(T),
+    run: YearRun<'_, T>,
+    observer: &mut dyn YearObserver<T>,
 ) -> YearWork {
     let Room { environment, open, closed } = room;
+    let YearRun { hours, points, settings, digest, goes_on, .. } = run;
     let YearHours { skies, closed: closed_hours } = hours;
     let is_closed = closed_hours.map_or(vec![false; skies.len()], |it| it.is_closed.to_vec());
     let is_open: Vec<bool> = is_closed.iter().map(|is_closed| !is_closed).collect();
@@ -117,14 +136,17 @@ fn run<S: Spectrum, T: Send>(
         let blank = |number| PointOfYear::blank(first + number, settings, skies.len());
         let mut years: Vec<PointOfYear> = (0..own.len()).map(blank).collect();
         for state in &states {
-            let points = state.simulate(first, own, &mut work);
+            let points = state.simulate(first, own, &mut work, goes_on);
+            if !goes_on() {
+                return work;
+            }
             state.add_to(&points, &mut years);
         }
-        let kept: Vec<T> = years.into_par_iter().map(&digest).collect();
-        kept.into_iter().for_each(&mut keep);
+        let kept: Vec<T> = years.into_par_iter().map(digest).collect();
+        kept.into_iter().for_each(|kept| observer.keep(kept));
         let over = first + own.len();
         work.is_complete = over == points.end;
-        if progress(YearProgress { over, of: points.end, work }) == Control::Stop {
+        if observer.progress(YearProgress { over, of: points.end, work }) == Control::Stop {
             break;
         }
     }

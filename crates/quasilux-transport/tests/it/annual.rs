@@ -12,7 +12,7 @@ use quasilux_sky::{
 use quasilux_transport::interval::t_quantile_for;
 use quasilux_transport::settings::Settings;
 use quasilux_transport::{
-    ClosedHours, Control, EstimatorKind, PointOfYear, YearHours, seen_suns, simulate,
+    ClosedHours, EstimatorKind, PointOfYear, YearHours, YearRun, seen_suns, simulate,
     simulate_year, sunlit_points,
 };
 use std::f64::consts::PI;
@@ -49,10 +49,26 @@ fn year(scene: &Scene, hours: &[WeatherSky], settings: &Settings) -> Vec<PointOf
 
 fn year_with_blinds(scene: &Scene, hours: YearHours<'_>, settings: &Settings) -> Vec<PointOfYear> {
     let mut all = Vec::new();
-    let mut go_on = |_| Control::Continue;
-    let points = 0..usize::MAX;
-    simulate_year(scene, hours, points, settings, &mut go_on, |it| it, |it| all.push(it));
+    let (points, digest, goes_on) = (0..usize::MAX, &|it| it, &|| true);
+    simulate_year(YearRun { scene, hours, points, settings, digest, goes_on }, &mut all);
     all
+}
+
+/// A year ends where it is told to, without the points that it was at.
+#[test]
+fn a_year_ends_when_it_is_told_to() {
+    let mut numbers = Numbers(43);
+    let Room { mut scene, window } = room_with_window(&mut numbers, 0.5);
+    let skies = &hours(&mut numbers, 4);
+    scene.environment = Some(environment(&mut numbers, window));
+    let settings = &Settings { rel_tol: 1e-9, max_samples: Some(1 << 40), ..Settings::default() };
+    let asked = std::sync::atomic::AtomicU32::new(0);
+    let goes_on = &|| asked.fetch_add(1, std::sync::atomic::Ordering::Relaxed) < 100;
+    let (hours, points) = (YearHours { skies, closed: None }, 0..usize::MAX);
+    let mut all: Vec<PointOfYear> = Vec::new();
+    let run = YearRun { scene: &scene, hours, points, settings, digest: &|it| it, goes_on };
+    let work = simulate_year(run, &mut all);
+    assert!(!work.is_complete && work.paths > 0 && all.is_empty(), "{work:?}");
 }
 
 /// The mean of an hour with its half-width.

@@ -4,7 +4,7 @@ use super::count::{Figure, Moment};
 use super::known_scene::KnownScene;
 use quasilux_transport::interval::t_quantile_for;
 use quasilux_transport::{
-    Control, Estimates, Interval, Observer, PointOfYear, Settings, YearHours, simulate,
+    Control, Estimates, Interval, Observer, PointOfYear, Settings, YearHours, YearRun, simulate,
     simulate_year,
 };
 
@@ -102,9 +102,15 @@ fn errors_of(known: &KnownScene, points: Vec<Interval>, all: [Interval; 2]) -> V
 fn hours(known: &KnownScene, settings: &Settings) -> End {
     let year = YearHours { skies: &known.hours, closed: None };
     let mut points: Vec<PointOfYear> = Vec::new();
-    let mut go_on = |_| Control::Continue;
-    let (scene, all) = (&known.scene, 0..usize::MAX);
-    simulate_year(scene, year, all, settings, &mut go_on, |it| it, |it| points.push(it));
+    let run = YearRun {
+        scene: &known.scene,
+        hours: year,
+        points: 0..usize::MAX,
+        settings,
+        digest: &|it| it,
+        goes_on: &|| true,
+    };
+    simulate_year(run, &mut points);
     let t = t_quantile_for(settings.replicates as usize, 1.0 - settings.confidence);
     let hours = known.hours.len();
     let of_hour = |point: &PointOfYear, hour: usize| {

@@ -54,7 +54,7 @@ const ELEMENT_M: f64 = 0.625;
 const PHOTONS_PER_PATH: u32 = 1024;
 /// Paths from each place where the floor of our own form is looked for, unless the command line
 /// asks for less, however long it takes.
-const DEEP: u64 = 1 << 16;
+const DEEP: u64 = 1 << 17;
 
 /// All that is measured.
 struct Findings {

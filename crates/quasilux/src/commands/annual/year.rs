@@ -20,10 +20,10 @@ use quasilux_report::annual::{
 use quasilux_scene::{Blinds, Loaded, Sensor};
 use quasilux_sky::Weather;
 use quasilux_transport::{
-    ClosedHours, Control, PointOfYear, Settings, YearHours, YearProgress, YearWork, simulate_year,
+    ClosedHours, Control, PointOfYear, Settings, YearHours, YearObserver, YearProgress, YearRun,
+    YearWork, simulate_year,
 };
 use rayon::ThreadPool;
-use std::cell::RefCell;
 use std::io;
 use std::ops::Range;
 use std::path::Path;
@@ -46,6 +46,48 @@ pub(super) struct Year<'p> {
 
 /// Where blocks go.
 pub(super) type Keep<'k> = dyn FnMut(YearBlock) -> Result<(), CliError> + Send + 'k;
+
+/// Points block by block, and what each block took.
+struct Blocks<'b, 'k> {
+    keep: &'b mut Keep<'k>,
+    kept: Result<(), CliError>,
+    points: Vec<PointOfHours>,
+    begin: Instant,
+    before: YearWork,
+    signs_of_life: Heartbeat,
+}
+
+impl<'b, 'k> Blocks<'b, 'k> {
+    fn new(keep: &'b mut Keep<'k>) -> Self {
+        Self {
+            keep,
+            kept: Ok(()),
+            points: Vec::new(),
+            begin: Instant::now(),
+            before: YearWork::default(),
+            signs_of_life: Heartbeat::new("simulating a year"),
+        }
+    }
+}
+
+impl YearObserver<PointOfHours> for Blocks<'_, '_> {
+    fn keep(&mut self, point: PointOfHours) {
+        self.points.push(point);
+    }
+
+    fn progress(&mut self, YearProgress { over, of, work }: YearProgress) -> Control {
+        self.signs_of_life.set(&format!("simulating a year: {over} of {of} points"));
+        let took = YearCost {
+            rays: work.rays - self.before.rays,
+            paths: work.paths - self.before.paths,
+            seconds: self.begin.elapsed().as_secs_f64(),
+        };
+        (self.before, self.begin) = (work, Instant::now());
+        self.kept = (self.keep)(YearBlock { took, points: std::mem::take(&mut self.points) });
+        let goes_on = self.kept.is_ok() && !interrupt::requested();
+        if goes_on { Control::Continue } else { Control::Stop }
+    }
+}
 
 impl<'p> Year<'p> {
     pub(super) fn new(
@@ -113,29 +155,12 @@ impl<'p> Year<'p> {
             let point = PointOfHours::new(point, &self.calendar, &thresholds, confidence);
             if is_dimmed { point } else { point.slimmed() }
         };
-        let signs_of_life = Heartbeat::new("simulating a year");
-        let mut kept = Ok(());
-        let work = self.pool.install(|| {
-            let mut begin = Instant::now();
-            let mut before = YearWork::default();
-            let block = RefCell::new(Vec::new());
-            let mut progress = |YearProgress { over, of, work }: YearProgress| {
-                signs_of_life.set(&format!("simulating a year: {over} of {of} points"));
-                let took = YearCost {
-                    rays: work.rays - before.rays,
-                    paths: work.paths - before.paths,
-                    seconds: begin.elapsed().as_secs_f64(),
-                };
-                (before, begin) = (work, Instant::now());
-                kept = keep(YearBlock { took, points: block.take() });
-                let goes_on = kept.is_ok() && !interrupt::requested();
-                if goes_on { Control::Continue } else { Control::Stop }
-            };
-            let collect = |point| block.borrow_mut().push(point);
-            let (scene, settings) = (&loaded.scene, &self.settings);
-            simulate_year(scene, hours, points, settings, &mut progress, digest, collect)
-        });
-        kept.map(|()| work.is_complete)
+        let (scene, settings) = (&loaded.scene, &self.settings);
+        let goes_on = || !interrupt::requested();
+        let run = YearRun { scene, hours, points, settings, digest: &digest, goes_on: &goes_on };
+        let mut blocks = Blocks::new(keep);
+        let work = self.pool.install(|| simulate_year(run, &mut blocks));
+        blocks.kept.map(|()| work.is_complete)
     }
 
     /// Makes results of the points that `fill` brings, writes them and prints what was asked for;
