@@ -117,18 +117,8 @@ impl Caps {
             })
         };
         let of_targets = watch.map_in_parts(&engine.receivers, of_target)?;
-        let of_eye_lx = if has_specular {
-            f64::INFINITY
-        } else {
-            let straight = |kind: &Kind| match kind.straight {
-                Straight::Computed => 0.0,
-                Straight::AtMost(lx) => lx,
-                Straight::OfLuminaires => f64::INFINITY,
-            };
-            let of_kind = |kind: &Kind| straight(kind).max(kind.eye_samples * kind.eye_lx);
-            let on_cells = of_targets.iter().map(|cap| cap.on_cell_lx).fold(0.0, f64::max);
-            kinds.iter().map(of_kind).fold(on_cells, f64::max)
-        };
+        let of_eye_lx =
+            if has_specular { f64::INFINITY } else { of_eye_paths_lx(&kinds, &of_targets) };
         Some(Self { of_targets, of_eye_lx })
     }
 
@@ -166,6 +156,18 @@ impl Caps {
         let most = -libm::log(1.0 - UNSEEN_CONFIDENCE);
         mean.min(most * self.of_eye_lx / (m * least_trials))
     }
+}
+
+/// What eye paths alone leave open at any target, where they can make all paths.
+fn of_eye_paths_lx(kinds: &[Kind], of_targets: &[Cap]) -> f64 {
+    let straight = |kind: &Kind| match kind.straight {
+        Straight::Computed => 0.0,
+        Straight::AtMost(lx) => lx,
+        Straight::OfLuminaires => f64::INFINITY,
+    };
+    let of_kind = |kind: &Kind| straight(kind).max(kind.eye_samples * kind.eye_lx);
+    let on_cells = of_targets.iter().map(|cap| cap.on_cell_lx).fold(0.0, f64::max);
+    kinds.iter().map(of_kind).fold(on_cells, f64::max)
 }
 
 /// Paths of one kind of light to one target.

@@ -252,7 +252,7 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
             return false;
         };
         let surface = &Surface::new(&context.world, at, self.direction);
-        let &Surface { bsdf, frame, wo, .. } = surface;
+        let &Surface { bsdf, wo, .. } = surface;
         let distance_m = self.distance_m + at.distance_m;
         let arrived = self.weights.map(|it| it.arrived(distance_m, wo.z));
         self.add_emitted(engine, at, arrived, found);
@@ -264,8 +264,24 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
             return false;
         }
         if bsdf.is_specular() {
-            return self.pass(engine, at, surface, arrived);
+            self.pass(engine, at, surface, arrived)
+        } else {
+            self.scatter(engine, at, surface, arrived, work)
         }
+    }
+
+    /// Asks for light, connects, and goes on from a surface that is not specular.
+    fn scatter(
+        &mut self,
+        engine: &Engine<'_, '_, S>,
+        at: &Interaction,
+        surface: &Surface<'_, S>,
+        arrived: EyeWeights,
+        work: &mut EyePaths<S>,
+    ) -> bool {
+        let context = engine.context;
+        let &Surface { bsdf, frame, wo, .. } = surface;
+        let distance_m = self.distance_m + at.distance_m;
         // Panes bend nothing: at the first surface this is the direction in which it left.
         let edge = JoinEdge {
             cos: self.receiver.n.dot(self.direction),
