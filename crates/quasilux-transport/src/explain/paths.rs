@@ -71,7 +71,7 @@ impl<'s, S: Spectrum> PathSource<'s, S> {
         }
         let kind = match &end {
             PathEnd::Nothing => SampleKind::Paths,
-            PathEnd::Own { .. } => SampleKind::PathsOnMap,
+            PathEnd::Maps(_) => SampleKind::PathsOnMap,
         };
         Self { context, targets, end, caustics, kind }
     }

@@ -23,19 +23,21 @@ const BALANCE_PHOTONS: u64 = 1 << 12;
 /// What the paths end on.
 pub(crate) enum PathEnd<S> {
     Nothing,
-    /// A map for each replicate that grows with it.
-    Own {
-        layout: MapLayout,
-        tallies: Vec<MapTally<S>>,
-        /// Photons of each so far.
-        photons: u64,
-        /// Photons for every path of a sensor point.
-        photons_per_path: u64,
-        /// Where photons leave from instead of the point-like lights.
-        lit_cells: Option<LitCells>,
-        /// What guides their photons.
-        windows: Option<WeightWindows>,
-    },
+    Maps(Box<OwnMaps<S>>),
+}
+
+/// A map for each replicate that grows with it.
+pub(crate) struct OwnMaps<S> {
+    layout: MapLayout,
+    tallies: Vec<MapTally<S>>,
+    /// Photons of each so far.
+    photons: u64,
+    /// Photons for every path of a sensor point.
+    photons_per_path: u64,
+    /// Where photons leave from instead of the point-like lights.
+    lit_cells: Option<LitCells>,
+    /// What guides their photons.
+    windows: Option<WeightWindows>,
 }
 
 /// Facts about the maps that paths end on, for reports.
@@ -89,9 +91,7 @@ impl<S: Spectrum> PathEnd<S> {
     pub(crate) fn photons_of_an_index(&self, replicates: u32) -> u64 {
         match self {
             Self::Nothing => 0,
-            Self::Own { photons_per_path, .. } => {
-                photons_per_path.saturating_mul(u64::from(replicates))
-            }
+            Self::Maps(maps) => maps.photons_per_path.saturating_mul(u64::from(replicates)),
         }
     }
 }
@@ -129,7 +129,8 @@ impl<S: Spectrum> PathEnd<S> {
         let layers = context.listed_terms.saturating_sub(1).max(1);
         let tallies = replicates.map(|_| MapTally::new(&layout, lightest, layers)).collect();
         let photons_per_path = u64::from(settings.map_photons.max(1));
-        let end = Self::Own { layout, tallies, photons: 0, photons_per_path, lit_cells, windows };
+        let maps = OwnMaps { layout, tallies, photons: 0, photons_per_path, lit_cells, windows };
+        let end = Self::Maps(Box::new(maps));
         Prepared { end, counts }
     }
 
@@ -138,7 +139,8 @@ impl<S: Spectrum> PathEnd<S> {
     pub(crate) fn photons(&self, samples: u64) -> Option<Range<u64>> {
         match self {
             Self::Nothing => None,
-            Self::Own { photons, photons_per_path, .. } => {
+            Self::Maps(maps) => {
+                let OwnMaps { photons, photons_per_path, .. } = &**maps;
                 Some(*photons..samples.saturating_mul(*photons_per_path))
             }
         }
@@ -148,10 +150,10 @@ impl<S: Spectrum> PathEnd<S> {
     pub(crate) fn facts(&self) -> MapFacts {
         match self {
             Self::Nothing => MapFacts::default(),
-            Self::Own { layout, lit_cells, windows, .. } => MapFacts {
-                elements: Some(layout.len() as u64),
-                first_shot: lit_cells.is_some(),
-                uses_importance: windows.is_some(),
+            Self::Maps(maps) => MapFacts {
+                elements: Some(maps.layout.len() as u64),
+                first_shot: maps.lit_cells.is_some(),
+                uses_importance: maps.windows.is_some(),
             },
         }
     }
@@ -160,7 +162,8 @@ impl<S: Spectrum> PathEnd<S> {
     pub(crate) fn put_decisions(&self, out: &mut Writer) {
         match self {
             Self::Nothing => {}
-            Self::Own { layout, lit_cells, windows, .. } => {
+            Self::Maps(maps) => {
+                let OwnMaps { layout, lit_cells, windows, .. } = &**maps;
                 layout.put(out);
                 lit_cells.iter().for_each(|cells| cells.put(out));
                 windows.iter().for_each(|windows| windows.put(out));
@@ -177,9 +180,8 @@ impl<S: Spectrum> PathEnd<S> {
         look: impl Fn(&GrowingMaps<'_, S>) -> Option<Snapshot>,
         watch: &mut Watch<'_>,
     ) -> Option<PhotonCounts> {
-        let Self::Own { layout, tallies, photons, lit_cells, windows, .. } = self else {
-            return Some(PhotonCounts::default());
-        };
+        let Self::Maps(maps) = self else { return Some(PhotonCounts::default()) };
+        let OwnMaps { layout, tallies, photons, lit_cells, windows, .. } = &mut **maps;
         let indices = *photons..end;
         let receiver = |r: u32| Some(MapReceiver::new(context, layout, &tallies[r as usize]));
         let source = Source::from_lit_cells(lit_cells.as_ref());
@@ -206,7 +208,8 @@ impl<S: Spectrum> PathEnd<S> {
         context: &Context<'_, S>,
         replicate: u32,
     ) -> Option<MapEnd<'_, S>> {
-        let Self::Own { layout, tallies, photons, .. } = self else { return None };
+        let Self::Maps(maps) = self else { return None };
+        let OwnMaps { layout, tallies, photons, .. } = &**maps;
         let flux_lm = context.lights.flux_lm / *photons as f64;
         Some(MapEnd { layout, map: tallies[replicate as usize].read(flux_lm) })
     }
@@ -215,18 +218,18 @@ impl<S: Spectrum> PathEnd<S> {
 /// Maps that grow.
 impl<S> Stored for PathEnd<S> {
     fn put(&self, out: &mut Writer) {
-        if let Self::Own { tallies, photons, .. } = self {
-            out.value(photons);
-            tallies.as_slice().put(out);
+        if let Self::Maps(maps) = self {
+            out.value(&maps.photons);
+            maps.tallies.as_slice().put(out);
         }
     }
 
     fn merge_from(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
         match self {
             Self::Nothing => Ok(()),
-            Self::Own { tallies, photons, .. } => {
-                from.add_count(photons)?;
-                tallies.as_mut_slice().merge_from(from)
+            Self::Maps(maps) => {
+                from.add_count(&mut maps.photons)?;
+                maps.tallies.as_mut_slice().merge_from(from)
             }
         }
     }
