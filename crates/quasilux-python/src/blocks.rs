@@ -10,9 +10,8 @@ use quasilux::embedded::{self, Order, Project, Source, trace_blocks};
 use quasilux_transport::{BlockTracer as Tracer, Received, StateError as BadState, Workers};
 use std::ffi::OsString;
 use std::ops::Range;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::Mutex;
 use std::sync::mpsc::{Receiver, Sender, channel};
-use std::sync::{Arc, Mutex};
 
 pyo3::create_exception!(
     _native,
@@ -125,15 +124,13 @@ fn serve(project: &Project, order: &Order, ready: &Sender<Option<String>>, queue
 /// over `None`, where nothing comes.
 pub(crate) struct PythonWorkers {
     object: Py<PyAny>,
-    /// Whether the run is to end.
-    stop: Arc<AtomicBool>,
     /// What was raised there, which ended the run.
     pub(crate) raised: Option<PyErr>,
 }
 
 impl PythonWorkers {
-    pub(crate) fn new(object: Py<PyAny>, stop: Arc<AtomicBool>) -> Self {
-        Self { object, stop, raised: None }
+    pub(crate) fn new(object: Py<PyAny>) -> Self {
+        Self { object, raised: None }
     }
 
     fn ask(
@@ -150,7 +147,6 @@ impl PythonWorkers {
         let mut missing = vec![true; blocks.len()];
         for answer in answers.clone() {
             let answer: Option<(usize, PyBackedBytes)> = answer?.extract()?;
-            let is_idle = answer.is_none();
             let goes_on = match answer {
                 None => done(Received::Nothing),
                 Some((number, bytes)) => {
@@ -162,11 +158,10 @@ impl PythonWorkers {
                     done(Received::Block { number, bytes: &bytes })
                 }
             };
-            // Before its first checkpoint a run goes on, but not where nothing comes.
-            if !goes_on || (is_idle && self.stop.load(Ordering::Relaxed)) {
+            if !goes_on {
                 // Lets a generator clean up behind itself.
                 let _ = answers.call_method0("close");
-                return Ok(!goes_on);
+                return Ok(true);
             }
         }
         Ok(!missing.contains(&true))

@@ -55,8 +55,8 @@ pub struct DaylightComponents {
 /// are to be known, with at most four paths for each of their samples. `None` where the sky does
 /// not shine alone, and where there are no openings that make an inside.
 ///
-/// `goes_on` is asked again and again, and ends the work with `None` when it says no. The result is
-/// a function of scene, settings and illuminances else. Runs in the rayon pool that the call is
+/// `goes_on` is asked again and again: once it says no, points get no more paths. The result is a
+/// function of scene, settings and illuminances else. Runs in the rayon pool that the call is
 /// made in.
 #[must_use]
 pub fn daylight_components<'a>(
@@ -112,15 +112,12 @@ fn of_points<S: Spectrum>(
             }
             paths = goal;
             let found = components(settings, &sums, paths, most_lx);
-            if paths == most || found.are_known(settings, lx) {
-                return Some(found);
-            }
-            if !goes_on() {
-                return None;
+            if paths == most || found.are_known(settings, lx) || !goes_on() {
+                return found;
             }
         }
     };
-    targets.par_iter().enumerate().map(point).collect()
+    Some(targets.par_iter().enumerate().map(point).collect())
 }
 
 /// Traces paths of a point in one replicate.

@@ -250,6 +250,7 @@ impl<'a> Watcher<'a> {
         let is_late = || self.end_of_step().is_some_and(|end| Instant::now() >= end);
         let reason = match heard {
             Some(Control::Stop) => Some(Stopped::Listener),
+            Some(_) if self.stopped == Some(Stopped::Listener) => self.stopped,
             None if interrupt::requested() => Some(Stopped::Interrupt),
             _ => is_late().then_some(Stopped::Time),
         };
@@ -330,6 +331,7 @@ impl Observer for Watcher<'_> {
     }
 
     fn checkpoint(&mut self, estimates: &Estimates) -> Control {
+        interrupt::keep_results();
         self.control(Event::Checkpoint(estimates))
     }
 }

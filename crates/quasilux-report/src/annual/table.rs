@@ -40,13 +40,15 @@ pub fn annual_table(report: &AnnualReport<'_>) -> String {
         write_electric_light(&mut text, report, dimming);
     }
     let worst = report.points.iter().filter_map(|point| point.relative_half_width);
-    let worst = worst.fold(0.0, f64::max);
+    let known = match worst.fold(0.0, f64::max) {
+        worst if worst.is_finite() => format!("{:.2} % or better", 100.0 * worst),
+        _ => "no better than zero where no path found light".to_owned(),
+    };
     let reached = if report.is_done() { "" } else { " (not all within the tolerance)" };
     writeln!(
         text,
-        "hours known to {:.2} % or better (rms of half-widths at {:.0} %), {} replicates{reached}; \
+        "hours known to {known} (rms of half-widths at {:.0} %), {} replicates{reached}; \
          {} rays, {:.1} s",
-        100.0 * worst,
         100.0 * report.run.settings.confidence,
         report.run.settings.effective_replicates(),
         count(report.run.work.rays),

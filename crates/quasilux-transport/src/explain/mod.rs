@@ -48,8 +48,7 @@ const MIN_SHARE: f64 = 0.01;
 pub struct Explanation {
     /// What was traced.
     pub walk: SampleKind,
-    /// Sensor points whose paths were looked at, with the photons beside them, or sensors whose
-    /// average photons were.
+    /// Sensor points whose paths were looked at, or sensors whose average photons were.
     pub targets: usize,
     /// Pilot samples, of each target where they are paths.
     pub samples: u64,
@@ -59,7 +58,7 @@ pub struct Explanation {
     /// How many coordinates the samples used.
     pub dimensions: DimensionHistogram,
     /// Standard deviation of what one sample finds over the mean, root mean square over the
-    /// targets; 0 where nothing varies. Of photons beside paths over all the light there.
+    /// targets; 0 where nothing varies.
     pub relative_deviation: f64,
     /// Coordinates by what they feed, in their order.
     pub blocks: Vec<Block>,

@@ -230,6 +230,7 @@ impl<S: Spectrum> Sitting<'_, S> {
         // Earlier passes have taken as many again as a share of the last.
         let expected = self.wish.expected(before).unwrap_or(self.wish.most);
         let all = expected.clamp(samples, self.wish.most.max(samples)) as f64;
+        watch.begin_pass(at);
         self.darkroom.trace_caustics(samples * CAUSTIC_PHOTONS, work, watch)?;
         self.darkroom.expose(samples, Part::All, work, |paths, rays, share| {
             watch.tick_picture(paths, rays, at, samples as f64 * share / all)

@@ -128,7 +128,10 @@ fn run<S: Spectrum>(
     mut watch: Watch<'_>,
 ) -> Result<Option<Estimates>, StateError> {
     watch.limit_rays(settings.max_rays);
-    watch.obey();
+    if state.is_none() {
+        // Nothing is lost then.
+        watch.obey();
+    }
     let Some(mut estimator) = new_estimator(context, scene, settings, &mut watch) else {
         let mut estimates = Estimates::nothing(scene, settings);
         add_pictures(context, scene, settings, &mut estimates, &mut watch);
@@ -153,6 +156,7 @@ fn run<S: Spectrum>(
             watch.begin_at(last, Standing::new(last, settings).largest());
         }
     }
+    watch.obey();
     let steps = Steps { context, scene, settings, decisions: &decisions };
     steps.advance_to_the_end(estimator.as_mut(), &mut course, &mut watch);
     drop(estimator);

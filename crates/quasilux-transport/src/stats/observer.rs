@@ -35,7 +35,7 @@ pub struct Progress {
     /// Share in [0, 1] of the expected work that is done, `None` while nothing is known; where a
     /// picture is taken, of the work at it.
     pub done: Option<f64>,
-    /// The same of the work up to the first checkpoint, before which no run can be stopped; `None`
+    /// The same of the work up to the first checkpoint, before which no value is known; `None`
     /// while surveys and pilots run, and past it.
     pub done_of_first: Option<f64>,
     /// The picture that is taken, once the sensors are done.

@@ -301,9 +301,19 @@ impl<'o> Watch<'o> {
         let is_first = self.progress.samples == 0 && self.to_first > 0;
         self.progress.done_of_first = is_first.then_some(of_first.min(1.0));
         let control = self.observer.progress(&self.progress);
-        self.stopped = control == Control::Stop && self.obeys;
+        // Who has stopped it has, whatever is said later.
+        self.stopped |= control == Control::Stop && self.obeys;
+        if let Some(picture) = self.progress.picture {
+            let may_go_on = self.progress.rays <= self.max_rays || picture.complete_samples == 0;
+            return control == Control::Continue && may_go_on;
+        }
         let is_within_limit = self.progress.rays <= self.max_rays || self.progress.samples == 0;
         is_within_limit && (!self.stopped || self.piece.is_some())
+    }
+
+    /// Begins a pass of a picture, to which work belongs from here on.
+    pub(crate) fn begin_pass(&mut self, at: PictureProgress) {
+        self.progress.picture = Some(at);
     }
 
     /// Counts work at a picture, a share of whose whole work is done. Whether to go on: no limit on

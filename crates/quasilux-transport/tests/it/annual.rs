@@ -134,8 +134,7 @@ fn behind_a_pinhole(hole_m: f64) -> Scene {
 
 /// Where no path finds the hole that all light comes by, hours are not known to be dark: they are
 /// not done, and zero with the half-width of what may have been missed, which holds what comes
-/// straight through the hole. Held to as many lux as that, they are; and so is a room without a
-/// hole.
+/// straight through the hole. Held to as many lux as that, they are.
 #[test]
 fn hours_in_which_nothing_was_found_are_not_done() {
     let mut numbers = Numbers(41);

@@ -7,8 +7,8 @@
 //! every other time and one of 0.45 % nearly always. Each estimate goes on until its standard error
 //! is small enough for that.
 //!
-//! Photons are connected to the sensors in a run of its own, and not guided: few of them that weigh
-//! much would make intervals of 32 replicates that cannot be trusted at this significance.
+//! Photons are not guided: few of them that weigh much would make intervals of 32 replicates that
+//! cannot be trusted at this significance.
 
 use crate::dozen_scenes as scenes;
 use quasilux_scene::Scene;
@@ -18,7 +18,7 @@ use quasilux_transport::{Control, Estimates, EstimatorKind, Observer, Settings, 
 const REPLICATES: u32 = 32;
 /// Scenes of this module, and comparisons in each: every estimator without bias with every other,
 /// and paths with the map.
-const FAMILY: usize = 17 * 11;
+const FAMILY: usize = 17 * 4;
 const SIGNIFICANCE: f64 = 0.05;
 /// What the joint half-width may be, relative.
 const WIDEST: f64 = 0.003;

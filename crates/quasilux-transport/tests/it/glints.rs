@@ -109,6 +109,7 @@ fn assert_glints_are_known(room: &Scene, luminance_cd_m2: f64) {
             let allowed_lx = 3.0 * interval.half_width.unwrap() + unseen.point_lx[point];
             let about = format!("{interval:?}, unseen {}", unseen.point_lx[point]);
             assert!(interval.value + allowed_lx > least_lx, "{seed}, {point}: {about}, {least_lx}");
+            assert!(unseen.point_lx[point] < 100.0 * least_lx, "{seed}, {point}: {about}");
         }
     }
 }

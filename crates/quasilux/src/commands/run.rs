@@ -150,7 +150,8 @@ pub(crate) fn work(
     let Some(estimates) = outcome? else { return Ok(None) };
     findings.extend(pool.install(|| in_the_dark(project, &prepared, &estimates, &findings)));
     let clock = watcher.clock();
-    let goes_on = || !interrupt::requested() && !clock.is_late();
+    let is_stopped = watcher.stopped == Some(Stopped::Listener);
+    let goes_on = || !is_stopped && !interrupt::requested() && !clock.is_late();
     let daylight = pool.install(|| daylight(&prepared, settings, &estimates, &goes_on));
     let samples = estimates.convergence.samples.unwrap_or(estimates.samples);
     let facts = RunFacts {

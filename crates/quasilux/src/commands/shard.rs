@@ -43,6 +43,7 @@ pub(crate) fn shard(arguments: &ShardArguments) -> Result<Exit, CliError> {
         quasilux_transport::trace_part(scene, &settings, samples, range, &mut watcher)
     };
     let sums = pool(threads)?.install(trace);
+    interrupt::keep_results();
     let seconds = watcher.finish();
     let Some(sums) = sums else {
         tell("interrupted: no part was written");

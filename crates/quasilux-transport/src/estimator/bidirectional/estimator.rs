@@ -38,6 +38,8 @@ pub(crate) struct BidirectionalEstimator<'a, S> {
     pub(super) quantum: Quantum,
     /// Of target t in replicate r at `t * replicates + r`.
     pub(super) sums: Vec<TargetSums>,
+    /// The first index.
+    pub(super) first: u64,
     /// Indices of the last checkpoint.
     pub(super) samples: u64,
     /// Units that are over since then.
@@ -104,6 +106,7 @@ impl<'a, S: Spectrum> BidirectionalEstimator<'a, S> {
             replicates,
             quantum: Quantum::for_reference(context.lights.reference_lx(&context.world)),
             sums: vec![empty; targets.len() * replicates as usize],
+            first: 0,
             samples: 0,
             done: 0,
             growing: (0..targets.len()).collect(),
@@ -281,7 +284,7 @@ impl<S: Spectrum> Estimator for BidirectionalEstimator<'_, S> {
     }
 
     fn trace_part(&mut self, part: Range<u64>, _samples: u64, watch: &mut Watch<'_>) -> bool {
-        self.samples = part.start;
+        (self.first, self.samples) = (part.start, part.start);
         self.trace_up_to(part.end, watch)
     }
 

@@ -109,7 +109,7 @@ impl<S: Spectrum> BidirectionalEstimator<'_, S> {
                 Ok(rank) => row.indices_of((rank / TARGETS) as u64, self.done),
                 Err(_) => self.samples_of(target) * row.replicates,
             };
-            self.all_lx(target, indices)
+            self.all_lx(target, indices - self.first * row.replicates)
         };
         snapshot(self.scene(), (0..self.ends.len()).map(value_lx))
     }

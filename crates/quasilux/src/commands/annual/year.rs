@@ -160,6 +160,7 @@ impl<'p> Year<'p> {
         let run = YearRun { scene, hours, points, settings, digest: &digest, goes_on: &goes_on };
         let mut blocks = Blocks::new(keep);
         let work = self.pool.install(|| simulate_year(run, &mut blocks));
+        interrupt::keep_results();
         blocks.kept.map(|()| work.is_complete)
     }
 
