@@ -17,7 +17,7 @@ use std::ops::Range;
 struct Keeper {
     piece: u64,
     states: Vec<Vec<u8>>,
-    /// How many progresses are waited for before the run is stopped.
+    /// How many progresses are waited for, once there is a state, before the run is stopped.
     patience: Option<u64>,
 }
 
@@ -44,6 +44,8 @@ impl Observer for Keeper {
         match &mut self.patience {
             None => Control::Continue,
             Some(0) => Control::Stop,
+            // Before that the run is made ready.
+            Some(_) if self.states.is_empty() => Control::Continue,
             Some(patience) => {
                 *patience -= 1;
                 Control::Continue
