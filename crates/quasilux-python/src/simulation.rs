@@ -43,7 +43,7 @@ fn simulate(
     let project = Arc::clone(&scene.get().project);
     let order = Order::from_words(options).map_err(|error| from_command_line(&error))?;
     let stop = Arc::new(AtomicBool::new(false));
-    let workers = workers.map(|object| PythonWorkers::new(object));
+    let workers = workers.map(PythonWorkers::new);
     let run = move |project: &Project, listener: Listener<'_>| match workers {
         None => embedded::simulate(project, &order, Some(listener)).map_err(Failure::Refused),
         Some(workers) => with_workers(project, &order, listener, workers),

@@ -18,7 +18,7 @@ use crate::settings::{EstimatorKind, Settings};
 use crate::spectrum::{Spectrum, is_grey};
 use crate::stats::interval::{Interval, t_quantile_for};
 use crate::stats::targets::{Target, targets};
-use crate::stats::unseen::UNSEEN_CONFIDENCE;
+use crate::stats::unseen::unseen_lx;
 use quasilux_scene::Rgb;
 use rayon::prelude::*;
 use std::ops::Range;
@@ -155,8 +155,7 @@ fn components(
         [0, 1].map(|k| Interval::of_mean(sums.iter().map(|sums| sums[k] / paths as f64), t));
     // A path that finds something outside has one sample there.
     let trials = paths as f64 * sums.len() as f64;
-    let unseen_lx = -libm::log(1.0 - UNSEEN_CONFIDENCE) * most_lx / trials;
-    DaylightComponents { sky_lx, externally_reflected_lx, unseen_lx }
+    DaylightComponents { sky_lx, externally_reflected_lx, unseen_lx: unseen_lx(most_lx, trials) }
 }
 
 impl DaylightComponents {

@@ -9,10 +9,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 static INTERRUPTED: AtomicBool = AtomicBool::new(false);
-/// Whether somebody has seen that.
-static IS_SEEN: AtomicBool = AtomicBool::new(false);
-/// Whether there are results, which are put out whatever happens.
-static HAS_RESULTS: AtomicBool = AtomicBool::new(false);
+/// Whether the run ends in order: somebody has seen that, or there are results, which are put out
+/// whatever happens.
+static ENDS_IN_ORDER: AtomicBool = AtomicBool::new(false);
 
 /// Nobody looks for so long where nobody looks at all.
 const PATIENCE: Duration = Duration::from_millis(1500);
@@ -25,7 +24,7 @@ pub(crate) fn listen() -> Result<(), CliError> {
         }
         std::thread::spawn(|| {
             std::thread::sleep(PATIENCE);
-            if !IS_SEEN.load(Ordering::Relaxed) && !HAS_RESULTS.load(Ordering::Relaxed) {
+            if !ENDS_IN_ORDER.load(Ordering::Relaxed) {
                 std::process::exit(Exit::Interrupted as i32);
             }
         });
@@ -37,12 +36,12 @@ pub(crate) fn listen() -> Result<(), CliError> {
 pub(crate) fn requested() -> bool {
     let is_requested = INTERRUPTED.load(Ordering::Relaxed);
     if is_requested {
-        IS_SEEN.store(true, Ordering::Relaxed);
+        ENDS_IN_ORDER.store(true, Ordering::Relaxed);
     }
     is_requested
 }
 
 /// From here on there are results, which an interrupt does not lose.
 pub(crate) fn keep_results() {
-    HAS_RESULTS.store(true, Ordering::Relaxed);
+    ENDS_IN_ORDER.store(true, Ordering::Relaxed);
 }

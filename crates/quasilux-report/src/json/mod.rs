@@ -16,21 +16,20 @@
 //! sample met, with `unseen_confidence`, `merged_lx`, the part of the value that is known as a mean
 //! over a disc of `disc_radius_m` around the point; `unseen_tol` is a share or "off", and
 //! `cannot_see` has the classes of light paths that the estimator cannot make. Then `decisions`,
-//! what pilots made of the settings (photons connected for each path
-//! (`connected_photons`), whether photons follow `importance` and leave lit places, sides of
-//! elements of the map that paths end on, photons for each path that look for light which paths
-//! cannot find; `null` where there are none), `prediction` (see `prediction.rs`), `flux_cut_lm`,
-//! the flux that `max_bounces` cut, and `dimension_counts`: how many photons and paths used 0, 1,
-//! 2, .. coordinates, in one list each, all of more than 1023 together at its end, `photons`, how
-//! many began in all, `null` where none did, and `mean_events`, surfaces that a `photon` came to on
-//! average. A point that reached its tolerance before others has its own number of `samples`. Where
-//! the sky shines, `outside` has its horizontal illuminance, and where nothing else does each point
-//! its `daylight_factor`, a share; beside openings in its parts, `sky_component`,
-//! `externally_reflected_component` and `internally_reflected_component`, the first two with what no
-//! path met of each at most (`components_unseen`). Where it was asked for,
-//! `explain` says which coordinates carry the variance. `findings` are what is probably wrong with
-//! the scene, each with the `check` that found it, place and `cure`; `warnings` have them as text,
-//! too.
+//! what pilots made of the settings (photons connected for each path (`connected_photons`), whether
+//! photons follow `importance` and leave lit places, sides of elements of the map that paths end
+//! on, photons for each path that look for light which paths cannot find; `null` where there are
+//! none), `prediction` (see `prediction.rs`), `flux_cut_lm`, the flux that `max_bounces` cut, and
+//! `dimension_counts`: how many photons and paths used 0, 1, 2, .. coordinates, in one list each,
+//! all of more than 1023 together at its end, `photons`, how many began in all, `null` where none
+//! did, and `mean_events`, surfaces that a `photon` came to on average. A point that reached its
+//! tolerance before others has its own number of `samples`. Where the sky shines, `outside` has its
+//! horizontal illuminance, and where nothing else does each point its `daylight_factor`, a share;
+//! beside openings in its parts, `sky_component`, `externally_reflected_component` and
+//! `internally_reflected_component`, the first two with what no path met of each at most
+//! (`components_unseen`). Where it was asked for, `explain` says which coordinates carry the
+//! variance. `findings` are what is probably wrong with the scene, each with the `check` that found
+//! it, place and `cure`; `warnings` have them as text, too.
 
 mod camera;
 mod explanation;

@@ -15,7 +15,7 @@ use crate::settings::Settings;
 use crate::spectrum::Spectrum;
 use crate::stats::interval::t_quantile_for;
 use crate::stats::targets::Target;
-use crate::stats::unseen::UNSEEN_CONFIDENCE;
+use crate::stats::unseen::unseen_lx;
 use crate::stats::watch::split;
 use quasilux_scene::Environment;
 use quasilux_sky::{TabulatedSky, WeatherSky};
@@ -115,7 +115,8 @@ impl<'y, S: Spectrum> State<'y, S> {
         Meshes::learn(&mut meshes, context, targets);
         let own: Vec<usize> = (0..skies.len()).filter(|&hour| is_own[hour]).collect();
         let step = own.len().div_ceil(PROBED_HOURS).max(1);
-        let probed: Vec<usize> = own.iter().skip(step / 2).step_by(step).copied().collect();
+        let to_probe = || (0..own.len()).skip(step / 2).step_by(step);
+        let probed: Vec<usize> = to_probe().map(|it| own[it]).collect();
         let tables = |hours: &[usize]| -> Vec<HourTable> {
             let of_hours: Vec<WeatherSky> = hours.iter().map(|&hour| skies[hour].clone()).collect();
             let tabulated: Vec<TabulatedSky> =
@@ -124,12 +125,13 @@ impl<'y, S: Spectrum> State<'y, S> {
             meshes.iter().map(table).collect()
         };
         let (tables, probes) = (tables(&own), tables(&probed));
+        let most_lx = most_lx(context, &tables);
         Self {
             context,
             settings,
             hours,
-            most_lx: most_lx(context, &tables),
-            most_probed_lx: most_lx(context, &probes),
+            most_probed_lx: to_probe().map(|it| most_lx[it]).collect(),
+            most_lx,
             tables,
             probes,
             own,
@@ -257,7 +259,7 @@ impl<'y, S: Spectrum> State<'y, S> {
     /// sample there; what vertices ask for beside that makes no trials (`docs/unseen.md`).
     fn unseen_of_a_path(&self, paths: u64) -> f32 {
         let trials = paths as f64 * self.meshes.len() as f64;
-        (-libm::log(1.0 - UNSEEN_CONFIDENCE) / trials) as f32
+        unseen_lx(1.0, trials) as f32
     }
 
     /// The hours of tables, by point and replicate, but for what comes straight from the sun.

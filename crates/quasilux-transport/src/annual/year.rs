@@ -36,8 +36,8 @@ pub struct ClosedHours<'h> {
 
 /// A year of hours at sensor points of a scene, with daylight alone: its lights are off.
 pub struct YearRun<'y, T> {
-    /// Its environment says where north is, what the ground reflects and where the openings are; its
-    /// sky and its sun do not count.
+    /// Its environment says where north is, what the ground reflects and where the openings are;
+    /// its sky and its sun do not count.
     pub scene: &'y Scene,
     /// The hours.
     pub hours: YearHours<'y>,
@@ -146,7 +146,8 @@ fn simulate<S: Spectrum, T: Send>(
         kept.into_iter().for_each(|kept| observer.keep(kept));
         let over = first + own.len();
         work.is_complete = over == points.end;
-        if observer.progress(YearProgress { over, of: points.end, work }) == Control::Stop {
+        let said = observer.progress(YearProgress { over, of: points.end, work });
+        if said == Control::Stop || !goes_on() {
             break;
         }
     }

@@ -4,8 +4,8 @@
 //!
 //! All that grows with a run is integers, so the bytes of a run that was interrupted lead to the
 //! same bits, and the sums of several index ranges add up to those of all of them, in any order.
-//! What a run decides before its first sample (surveys, pilots) is a function of scene
-//! and settings: it is computed again, and only a digest of it is stored, so that a difference is
+//! What a run decides before its first sample (surveys, pilots) is a function of scene and
+//! settings: it is computed again, and only a digest of it is stored, so that a difference is
 //! refused and not silently wrong.
 //!
 //! Converged targets have ended with fewer samples than others: which ones, and with how many, is

@@ -3,14 +3,14 @@
 use crate::context::Context;
 use crate::spectrum::Spectrum;
 use crate::stats::targets::Target;
-use crate::stats::watch::Watch;
+use crate::stats::watch::{POINTS_AT_ONCE, Watch};
 use crate::world::vertex::Vertex;
 use crate::world::visibility::{Receiver, ShadowQueue};
 
 /// Targets whose light from the point-like lights is computed together.
 const TARGETS: usize = 256;
 /// Chunks of them between two words to the observer.
-const AT_ONCE: usize = 16;
+const AT_ONCE: usize = POINTS_AT_ONCE / TARGETS;
 
 /// What a sensor point gets of point-like lights, without sampling, in lx.
 #[derive(Clone, Default)]
@@ -40,10 +40,18 @@ impl Exact {
         }
     }
 
-    /// What the results cannot hold.
-    pub(crate) fn invalid(&mut self) -> impl Iterator<Item = &mut f64> {
+    /// Leaves out what the results cannot hold, and says how much that was: a light right at a
+    /// sensor point has no illuminance to speak of.
+    pub(super) fn drop_invalid(&mut self) -> u64 {
         let Self { direct_lx, mirrored_lx, .. } = self;
-        [direct_lx, mirrored_lx].into_iter().filter(|value_lx| !value_lx.is_finite())
+        let mut dropped = 0;
+        for value_lx in [direct_lx, mirrored_lx] {
+            if !value_lx.is_finite() {
+                *value_lx = 0.0;
+                dropped += 1;
+            }
+        }
+        dropped
     }
 }
 
@@ -76,11 +84,9 @@ pub(crate) fn exact<S: Spectrum>(
     };
     let chunks: Vec<&[Target]> = targets.chunks(TARGETS).collect();
     let mut all = Vec::with_capacity(targets.len());
-    for chunks in chunks.chunks(AT_ONCE) {
-        for (exact, of_chunk) in watch.map_in_parts(chunks, light)? {
-            all.extend(exact);
-            *rays += of_chunk;
-        }
+    for (exact, of_chunk) in watch.map_in_parts(&chunks, AT_ONCE, light)? {
+        all.extend(exact);
+        *rays += of_chunk;
     }
     Some(all)
 }

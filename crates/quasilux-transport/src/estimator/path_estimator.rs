@@ -98,12 +98,7 @@ impl<'a, S: Spectrum> PathEstimator<'a, S> {
         let replicates = settings.effective_replicates();
         let mut work = WorkCounts::default();
         let mut exact = exact(context, &targets, &mut work.rays, watch)?;
-        let mut invalid_points = 0;
-        for value_lx in exact.iter_mut().flat_map(Exact::invalid) {
-            // A light right at a sensor point has no illuminance to speak of.
-            *value_lx = 0.0;
-            invalid_points += 1;
-        }
+        let invalid_points = exact.iter_mut().map(Exact::drop_invalid).sum();
         let samples_direct = targets.iter().map(|target| samples_direct(context, target)).collect();
         let quantum = Quantum::for_reference(context.lights.reference_lx(&context.world));
         let Prepared { end, counts: photons } =

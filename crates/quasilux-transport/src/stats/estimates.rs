@@ -150,8 +150,8 @@ impl Estimates {
                 unseen: settings.estimator.is_bounded().then(|| UnseenLight::unknown(points)),
             }
         };
-        let warning = "the run was stopped before each sensor point had a sample in all replicates: \
-                       no value is known";
+        let warning = "the run was stopped before each sensor point had a sample in all \
+                       replicates: no value is known";
         Self {
             sensors: scene.sensors.iter().map(of_sensor).collect(),
             confidence: settings.confidence,

@@ -55,6 +55,15 @@ impl UnseenLight {
     }
 }
 
+/// Light in lx at most, with [`UNSEEN_CONFIDENCE`], by ways on which none of so many trials had a
+/// sample; `most_lx` is what a sample adds times the samples that a trial expects. Infinite where
+/// nothing is known.
+#[must_use]
+pub(crate) fn unseen_lx(most_lx: f64, trials: f64) -> f64 {
+    let lx = -libm::log(1.0 - UNSEEN_CONFIDENCE) * most_lx / trials;
+    if lx.is_nan() { f64::INFINITY } else { lx }
+}
+
 /// A bound for one of `points` points, times this, holds for all of them at once: ln(1/d) becomes
 /// ln(m/d).
 #[must_use]
@@ -98,6 +107,14 @@ mod tests {
             let read: Option<UnseenLight> = Reader::new(&bytes).value().unwrap();
             assert_eq!(read, Some(unseen));
         }
+    }
+
+    /// ln(1 / 0.05) = 2.9957: the rule of three.
+    #[test]
+    fn nothing_seen_is_three_at_most() {
+        assert!((unseen_lx(10.0, 100.0) - 0.29957).abs() < 1e-5);
+        assert_eq!(unseen_lx(0.0, 1.0), 0.0);
+        assert!([unseen_lx(0.0, 0.0), unseen_lx(1.0, 0.0)].iter().all(|lx| *lx == f64::INFINITY));
     }
 
     /// ln(196 / 0.05) = 8.27: the bound in W where 196 points are to hold at once.

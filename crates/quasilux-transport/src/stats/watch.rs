@@ -10,7 +10,7 @@ use std::ops::Range;
 
 /// Sensor points that are looked at between two words to the observer before the first sample: some
 /// tenths of a second, where each takes longest.
-const PART: usize = 1 << 12;
+pub(crate) const POINTS_AT_ONCE: usize = 1 << 12;
 
 /// Tells the observer how far a run is, and remembers whether it said stop.
 pub(crate) struct Watch<'o> {
@@ -241,15 +241,16 @@ impl<'o> Watch<'o> {
         self.stopped
     }
 
-    /// Work on each of many things, in the threads of the pool, part by part; `None` when the
-    /// observer stopped it between two parts.
+    /// Work on each of many things, in the threads of the pool, in parts of `at_once`; `None` when
+    /// the observer stopped it between two parts.
     pub(crate) fn map_in_parts<T: Sync, R: Send>(
         &mut self,
         things: &[T],
+        at_once: usize,
         work: impl Fn(&T) -> R + Sync,
     ) -> Option<Vec<R>> {
         let mut done = Vec::with_capacity(things.len());
-        for part in things.chunks(PART) {
+        for part in things.chunks(at_once) {
             done.par_extend(part.par_iter().map(&work));
             let _ = self.tick(0, 0, 0);
             if self.stopped {
@@ -285,8 +286,9 @@ impl<'o> Watch<'o> {
         }
     }
 
-    /// Counts work. Whether to go on: always before the run [obeys](Self::obey), and to the end of a
-    /// piece after which a state can be kept, unless there are too many rays, which no state may hold.
+    /// Counts work. Whether to go on: always before the run [obeys](Self::obey), and to the end of
+    /// a piece after which a state can be kept, unless there are too many rays, which no state may
+    /// hold.
     #[must_use]
     pub(crate) fn tick(&mut self, photons: u64, paths: u64, rays: u64) -> bool {
         let so_far = &mut self.progress;

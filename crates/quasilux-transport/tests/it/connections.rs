@@ -1,5 +1,5 @@
-//! Paths connected to light subpaths: the same light as paths alone find, term by term, and the same
-//! bits whoever computes them.
+//! Paths connected to light subpaths: the same light as paths alone find, term by term, and the
+//! same bits whoever computes them.
 
 use crate::agreement::coloured_room_with_mirror;
 use crate::images::add_panel;

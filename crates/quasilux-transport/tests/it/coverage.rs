@@ -1,8 +1,8 @@
 //! Intervals are true at the moment a run stops by itself.
 //!
-//! Over 160 seeds and two ways to gather the diffuse cube is run to 1.8 % at three places whose light
-//! is known to 1e-5, with only eight replicates, so that half-widths are noisy and runs stop at
-//! different looks. The 95 % interval must cover the truth in at least 92.82 % of the 960 cases:
+//! Over 160 seeds and two ways to gather the diffuse cube is run to 1.8 % at three places whose
+//! light is known to 1e-5, with only eight replicates, so that half-widths are noisy and runs stop
+//! at different looks. The 95 % interval must cover the truth in at least 92.82 % of the 960 cases:
 //! were they independent, fewer would come once in 1000 choices of the seeds; and in at least 91.7
 //! % of the 480 cases of each way, by the same measure for two of them. Intervals that are 30 % too
 //! narrow cover about 89 %; the test shows that it would notice them.

@@ -230,7 +230,8 @@ fn photons_and_paths_agree_on_published_sheets() {
 }
 
 /// Compares `paths` paths a replicate (2^12 in deep runs) with photons counted by cells, and with
-/// paths that are connected to light subpaths. Joint half-widths are at most `widest` of the values.
+/// paths that are connected to light subpaths. Joint half-widths are at most `widest` of the
+/// values.
 pub(crate) fn assert_estimators_agree(what: &str, scene: &Scene, paths: u64, widest: f64) {
     let paths = if deep() { paths.max(1 << 12) } else { paths };
     let alone = estimates(scene, EstimatorKind::Path, paths);

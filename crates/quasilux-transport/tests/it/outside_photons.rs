@@ -145,9 +145,9 @@ fn windows_give_the_integral_of_what_is_behind_them() {
     }
 }
 
-/// What photons find in rooms at random, and paths that are connected to light subpaths, beside what
-/// paths find: over 64 values each, of mean 0 and spread 1 in joint standard
-/// errors. A bias of half a standard error of all is found.
+/// What photons find in rooms at random, and paths that are connected to light subpaths, beside
+/// what paths find: over 64 values each, of mean 0 and spread 1 in joint standard errors. A bias of
+/// half a standard error of all is found.
 #[test]
 fn photons_and_paths_agree_in_rooms_at_random() {
     let mut numbers = Numbers(29);

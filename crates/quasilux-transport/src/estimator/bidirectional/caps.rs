@@ -18,8 +18,8 @@ use crate::bsdf::Bsdf;
 use crate::lights::SKY_MARGIN;
 use crate::spectrum::Spectrum;
 use crate::stats::targets::Target;
-use crate::stats::unseen::UNSEEN_CONFIDENCE;
-use crate::stats::watch::Watch;
+use crate::stats::unseen::unseen_lx;
+use crate::stats::watch::{POINTS_AT_ONCE, Watch};
 use crate::world::{Facet, World};
 use std::f64::consts::PI;
 use surfaces::Surfaces;
@@ -116,7 +116,7 @@ impl Caps {
                 ..cap
             })
         };
-        let of_targets = watch.map_in_parts(&engine.receivers, of_target)?;
+        let of_targets = watch.map_in_parts(&engine.receivers, POINTS_AT_ONCE, of_target)?;
         let of_eye_lx =
             if has_specular { f64::INFINITY } else { of_eye_paths_lx(&kinds, &of_targets) };
         Some(Self { of_targets, of_eye_lx })
@@ -140,11 +140,7 @@ impl Caps {
     /// Light in lx at each target by ways on which no sample lay, at most; `trials` are the indices
     /// of each, of all replicates.
     pub(super) fn unseen_lx(&self, trials: impl Fn(usize) -> f64) -> Vec<f64> {
-        let most = -libm::log(1.0 - UNSEEN_CONFIDENCE);
-        let of_target = |(target, cap): (usize, &Cap)| {
-            let lx = most * cap.unseen_lx / trials(target);
-            if lx.is_nan() { f64::INFINITY } else { lx }
-        };
+        let of_target = |(target, cap): (usize, &Cap)| unseen_lx(cap.unseen_lx, trials(target));
         self.of_targets.iter().enumerate().map(of_target).collect()
     }
 
@@ -153,8 +149,7 @@ impl Caps {
     pub(super) fn unseen_of_average_lx(&self, point_lx: &[f64], least_trials: f64) -> f64 {
         let m = point_lx.len().max(1) as f64;
         let mean = point_lx.iter().sum::<f64>() / m;
-        let most = -libm::log(1.0 - UNSEEN_CONFIDENCE);
-        mean.min(most * self.of_eye_lx / (m * least_trials))
+        mean.min(unseen_lx(self.of_eye_lx, m * least_trials))
     }
 }
 

@@ -30,7 +30,7 @@ use std::ops::Range;
 /// Bidirectional paths from all sensor points, in all replicates.
 pub(crate) struct BidirectionalEstimator<'a, S> {
     pub(super) engine: Engine<'a, 'a, S>,
-    scene: &'a Scene,
+    pub(super) scene: &'a Scene,
     caps: Caps,
     /// Of each target that is a point.
     exact: Vec<Exact>,
@@ -82,12 +82,7 @@ impl<'a, S: Spectrum> BidirectionalEstimator<'a, S> {
         let targets = targets(scene);
         let mut prepared_rays = 0;
         let mut exact = exact(context, &targets, &mut prepared_rays, watch)?;
-        let mut invalid_points = 0;
-        for value_lx in exact.iter_mut().flat_map(Exact::invalid) {
-            // A light right at a sensor point has no illuminance to speak of.
-            *value_lx = 0.0;
-            invalid_points += 1;
-        }
+        let invalid_points = exact.iter_mut().map(Exact::drop_invalid).sum();
         let mut engine = Engine::new(context, &targets, watch)?;
         prepared_rays += plan_joins(&mut engine, watch)?;
         let caps = Caps::new(&engine, watch)?;
@@ -150,11 +145,6 @@ impl<'a, S: Spectrum> BidirectionalEstimator<'a, S> {
             |sums: &TargetSums| self.quantum.value(sums.direct) + self.quantum.value(sums.indirect);
         let sampled: f64 = own.iter().map(of_sums).sum();
         (indices > 0).then(|| self.exact[target].sum_lx() + sampled / indices as f64)
-    }
-
-    /// The scene that the targets are of.
-    pub(super) fn scene(&self) -> &'a Scene {
-        self.scene
     }
 
     /// The mean over the replicates of what `sum` takes of each target.

@@ -10,7 +10,7 @@ use super::light_subpath::LightSubpaths;
 use super::plan::Receiver;
 use crate::context::Stream;
 use crate::spectrum::Spectrum;
-use crate::stats::watch::Watch;
+use crate::stats::watch::{POINTS_AT_ONCE, Watch};
 use quasilux_sampling::Sampler;
 
 /// Joins of a light subpath to each target, on average. Of an eighth, a quarter and a half no one
@@ -40,7 +40,7 @@ pub(super) fn plan_joins<S: Spectrum>(
         pilots.places.per_m2(all, receiver.n, receiver.position, &mut per_m2);
         rate(&per_m2, joins)
     };
-    let rates = watch.map_in_parts(&engine.receivers, plan)?;
+    let rates = watch.map_in_parts(&engine.receivers, POINTS_AT_ONCE, plan)?;
     for (receiver, rate) in engine.receivers.iter_mut().zip(rates) {
         receiver.per_sure_m2 = rate.unwrap_or(receiver.per_sure_m2);
     }

@@ -12,7 +12,7 @@ use crate::bsdf::Bsdf;
 use crate::context::Context;
 use crate::spectrum::Spectrum;
 use crate::stats::targets::Target;
-use crate::stats::watch::Watch;
+use crate::stats::watch::{POINTS_AT_ONCE, Watch};
 use crate::world::grid_plane::GridPlane;
 use crate::world::{Interaction, RayOrigin, World};
 use glam::DVec3;
@@ -112,7 +112,8 @@ pub(super) fn receivers<S: Spectrum>(
     let area_m2: f64 = world.facets.iter().map(|facet| facet.area_m2()).sum();
     let emitting = EmittingFacets::new(world);
     let most_scale = world.bsdfs().iter().map(Bsdf::scale_inside).fold(1.0, f64::max);
-    watch.map_in_parts(targets, |it| Receiver::new(context, it, area_m2, most_scale, &emitting))
+    let receiver = |it: &Target| Receiver::new(context, it, area_m2, most_scale, &emitting);
+    watch.map_in_parts(targets, POINTS_AT_ONCE, receiver)
 }
 
 /// The chance to go on from a surface with this number in an eye path over what remains of its

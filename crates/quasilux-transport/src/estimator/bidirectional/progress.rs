@@ -111,7 +111,7 @@ impl<S: Spectrum> BidirectionalEstimator<'_, S> {
             };
             self.all_lx(target, indices - self.first * row.replicates)
         };
-        snapshot(self.scene(), (0..self.ends.len()).map(value_lx))
+        snapshot(self.scene, (0..self.ends.len()).map(value_lx))
     }
 
     fn add_units(&mut self, row: &Row, numbers: Range<u64>, found: &[UnitSums]) {

@@ -1,8 +1,7 @@
 //! Which light a photon leaves: half of the choices go by flux, half evenly, so that a faint lamp
 //! is never left out beside bright ones.
 
-use crate::lights::SKY_MARGIN;
-use crate::lights::{Emission, Emitted, LightKind, Lights, Line};
+use crate::lights::{Emission, Emitted, LightKind, Lights, Line, SKY_MARGIN};
 use crate::spectrum::Spectrum;
 use crate::world::World;
 use glam::DVec3;

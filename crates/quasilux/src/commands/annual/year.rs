@@ -84,8 +84,7 @@ impl YearObserver<PointOfHours> for Blocks<'_, '_> {
         };
         (self.before, self.begin) = (work, Instant::now());
         self.kept = (self.keep)(YearBlock { took, points: std::mem::take(&mut self.points) });
-        let goes_on = self.kept.is_ok() && !interrupt::requested();
-        if goes_on { Control::Continue } else { Control::Stop }
+        if self.kept.is_ok() { Control::Continue } else { Control::Stop }
     }
 }
 
