@@ -47,7 +47,7 @@ pub struct DaylightComponents {
     /// From surfaces and ground beyond the openings, in lx.
     pub externally_reflected_lx: Interval,
     /// What of each may come by ways on which no path lay, at most, in lx, with
-    /// [`UNSEEN_CONFIDENCE`].
+    /// [`UNSEEN_CONFIDENCE`](crate::unseen::UNSEEN_CONFIDENCE).
     pub unseen_lx: f64,
 }
 
