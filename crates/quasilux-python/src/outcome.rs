@@ -146,6 +146,7 @@ impl Outcome {
         };
         put("luminance_cd_m2", &|pixel| pixel.luminance_cd_m2)?;
         put("half_width_cd_m2", &|pixel| pixel.half_width_cd_m2.unwrap_or(f32::NAN))?;
+        put("unseen_cd_m2", &|pixel| pixel.unseen_cd_m2.unwrap_or(f32::NAN))?;
         let rgb: Vec<f32> = camera.pixels.iter().flat_map(|pixel| pixel.rgb_cd_m2).collect();
         arrays.set_item("rgb_cd_m2", read_only(py, rgb, &[rows, columns, 3]))?;
         Ok(Some(arrays))

@@ -149,6 +149,7 @@ def test_cameras_have_pictures(result: quasilux.Result) -> None:
     view = result.cameras["view"]
     assert view.resolution == (24, 16) and view.samples == 2 and view.tolerance_reached
     assert view.luminance_cd_m2.shape == view.half_width_cd_m2.shape == (16, 24)
+    assert view.unseen_cd_m2.shape == (16, 24) and (view.unseen_cd_m2 >= 0).all()
     assert view.rgb_cd_m2.shape == (16, 24, 3) and view.rgb_cd_m2.dtype == np.float32
     weights = np.array([0.2126, 0.7152, 0.0722], np.float32)
     assert np.allclose(view.rgb_cd_m2 @ weights, view.luminance_cd_m2, rtol=1e-4)

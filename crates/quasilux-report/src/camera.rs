@@ -20,6 +20,14 @@ pub struct CameraReport {
     pub mean_cd_m2: Figure,
     /// Largest luminance of a pixel in cd/m2; higher than the true one by the pixel's noise.
     pub maximum_cd_m2: Option<f64>,
+    /// The part of that mean, in cd/m2 at most, that no sample met, with a confidence of 95 %;
+    /// infinite where nothing is known, `None` of plain paths.
+    pub mean_unseen_cd_m2: Option<f64>,
+    /// The part of that mean in cd/m2 that photons brought, on discs of `disc_radius_m`: it is
+    /// known as a mean over them.
+    pub mean_merged_cd_m2: f64,
+    /// `None` where no photons count.
+    pub disc_radius_m: Option<f64>,
     /// Half-width of the interval of a pixel in cd/m2, mean over all that have one.
     pub mean_half_width_cd_m2: Option<f64>,
     /// That over the mean luminance of the picture; `None` where most pixels have no interval.
@@ -60,6 +68,9 @@ impl CameraReport {
                 0 => Figure::default(),
                 _ => estimates.picture_mean(index).into(),
             },
+            mean_unseen_cd_m2: found.unseen_mean_cd_m2,
+            mean_merged_cd_m2: found.merged_mean_cd_m2,
+            disc_radius_m: found.disc_radius_m,
             maximum_cd_m2: luminances.reduce(f64::max).filter(|x| x.is_finite()),
             mean_half_width_cd_m2: (known > 0)
                 .then(|| sum / known as f64)

@@ -133,6 +133,7 @@ pub(crate) fn picture(resolution: [u32; 2], luminance_cd_m2: impl Fn(u32, u32) -
                 rgb_cd_m2: [1.1, 0.98, 0.9].map(|share| share * luminance_cd_m2),
                 luminance_cd_m2,
                 half_width_cd_m2: (luminance_cd_m2 > 0.0).then_some(0.5),
+                unseen_cd_m2: Some(0.25),
             }
         })
         .collect();
@@ -150,6 +151,9 @@ pub(crate) fn picture(resolution: [u32; 2], luminance_cd_m2: impl Fn(u32, u32) -
     });
     estimates.samples = 16;
     estimates.cameras.push(CameraEstimates {
+        unseen_mean_cd_m2: Some(0.125),
+        merged_mean_cd_m2: 0.5,
+        disc_radius_m: Some(0.1),
         replicate_mean_cd_m2: vec![sum / pixels.len() as f64; 16],
         pixels: pixels.into(),
         samples: 16,

@@ -93,9 +93,10 @@ pub fn tone_mapped_png(camera: &CameraReport) -> Vec<u8> {
 }
 
 /// The picture of a camera as an OpenEXR file with the layers `rgb` (R, G, B; the first, so that
-/// viewers show it), `luminance` (Y, which is 0.2126 R + 0.7152 G + 0.0722 B) and `half_width` (Y:
-/// half the width of the interval of the luminance, not a number where it is unknown), all in
-/// cd/m2.
+/// viewers show it), `luminance` (Y, which is 0.2126 R + 0.7152 G + 0.0722 B), `half_width` (Y:
+/// half the width of the interval of the luminance, not a number where it is unknown) and `unseen`
+/// (Y: luminance at most that no sample met, infinite where nothing is known, not a number of plain
+/// paths), all in cd/m2.
 #[must_use]
 pub fn exr(camera: &CameraReport) -> Vec<u8> {
     let channel = |name: &'static str, value: fn(&Pixel) -> f32| Channel {
@@ -109,10 +110,12 @@ pub fn exr(camera: &CameraReport) -> Vec<u8> {
         channel("B", |pixel| pixel.rgb_cd_m2[2]),
     ];
     let half_width = channel("Y", |pixel| pixel.half_width_cd_m2.unwrap_or(f32::NAN));
+    let unseen = channel("Y", |pixel| pixel.unseen_cd_m2.unwrap_or(f32::NAN));
     let layers = vec![
         layer("rgb", rgb),
         layer("luminance", vec![channel("Y", |pixel| pixel.luminance_cd_m2)]),
         layer("half_width", vec![half_width]),
+        layer("unseen", vec![unseen]),
     ];
     exr_bytes(camera.resolution, layers)
 }

@@ -91,8 +91,10 @@ pub(crate) enum Stream {
     /// Which vertices of them are joined to a sensor point, and where in its cell, numbered through
     /// all sensors.
     Joins(u64),
-    /// Photons that leave virtual lights for pictures.
-    PictureLights,
+    /// Light subpaths that serve all pixels.
+    PictureSubpaths,
+    /// Photons that serve all pixels: those that come from narrow surfaces count.
+    PicturePhotons,
     /// Paths through one pixel of one camera.
     Pixel {
         /// Number of the camera.
@@ -113,7 +115,8 @@ impl Stream {
             Self::WindowPilots => u64::MAX - 65,
             Self::CausticPhotons => u64::MAX,
             Self::Survey(kind) => u64::MAX - 1 - kind,
-            Self::PictureLights => u64::MAX - 68,
+            Self::PictureSubpaths => u64::MAX - 68,
+            Self::PicturePhotons => u64::MAX - 72,
             Self::SharedSubpaths => u64::MAX - 70,
             Self::SubpathPilots => u64::MAX - 71,
             Self::Joins(point) => (7 << 60) + point,
@@ -137,7 +140,8 @@ impl Stream {
                 | Self::WindowPilots
                 | Self::CausticPhotons
                 | Self::Survey(_)
-                | Self::PictureLights
+                | Self::PictureSubpaths
+                | Self::PicturePhotons
                 | Self::DaylightPaths(_)
                 | Self::SunDisks(_)
                 | Self::Meshes
@@ -265,8 +269,8 @@ mod tests {
     fn streams_have_numbers_of_their_own() {
         use Stream::{
             CausticPhotons, DaylightPaths, EyeSubpaths, FirstShotPilots, Joins, MapPilots, Meshes,
-            Paths, Photons, PictureLights, PlanPhotons, SharedSubpaths, SubpathPilots, SunDisks,
-            Survey, WindowPilots,
+            Paths, Photons, PicturePhotons, PictureSubpaths, PlanPhotons, SharedSubpaths,
+            SubpathPilots, SunDisks, Survey, WindowPilots,
         };
         let single =
             [Photons, PlanPhotons, MapPilots, FirstShotPilots, WindowPilots, CausticPhotons];
@@ -277,7 +281,7 @@ mod tests {
         let numbered = numbers(1 << 40).flat_map(|number| {
             [Paths, DaylightPaths, SunDisks, EyeSubpaths, Joins].map(|stream| stream(number))
         });
-        let others = [PictureLights, Meshes, SharedSubpaths, SubpathPilots];
+        let others = [PicturePhotons, PictureSubpaths, Meshes, SharedSubpaths, SubpathPilots];
         let streams = single.into_iter().chain(others).chain(numbered);
         let streams = streams.chain(numbers(62).map(Survey)).chain(pixels);
         let mut ids: Vec<u64> = streams.map(Stream::id).collect();

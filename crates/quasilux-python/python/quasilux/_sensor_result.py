@@ -309,7 +309,8 @@ class CameraResult:
         blank = np.full((height, width, 3), np.nan, np.float32)
         blank.flags.writeable = False
         plane = blank[..., 0]
-        return {"luminance_cd_m2": plane, "half_width_cd_m2": plane, "rgb_cd_m2": blank}
+        planes = ("luminance_cd_m2", "half_width_cd_m2", "unseen_cd_m2")
+        return {"rgb_cd_m2": blank} | dict.fromkeys(planes, plane)
 
     @property
     def luminance_cd_m2(self) -> NDArray[np.float32]:
@@ -320,6 +321,12 @@ class CameraResult:
     def half_width_cd_m2(self) -> NDArray[np.float32]:
         """Half the width of each luminance's interval in cd/m2, shape (height, width)."""
         return self._arrays["half_width_cd_m2"]
+
+    @property
+    def unseen_cd_m2(self) -> NDArray[np.float32]:
+        """Luminance of each pixel in cd/m2 at most that no sample met, with a confidence of 95 %,
+        shape (height, width): infinite where nothing is known, not a number of plain paths."""
+        return self._arrays["unseen_cd_m2"]
 
     @property
     def rgb_cd_m2(self) -> NDArray[np.float32]:

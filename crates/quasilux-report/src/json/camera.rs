@@ -11,6 +11,12 @@ pub(super) struct CameraEntry<'a> {
     samples: u64,
     files: Vec<String>,
     mean_luminance_cd_m2: FigureEntry,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    mean_unseen_cd_m2: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    mean_merged_cd_m2: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    disc_radius_m: Option<f64>,
     maximum_luminance_cd_m2: Option<f64>,
     mean_half_width_cd_m2: Option<f64>,
     relative_half_width: Option<f64>,
@@ -28,6 +34,9 @@ impl<'a> CameraEntry<'a> {
             samples: camera.samples,
             files: camera.files().map(names).unwrap_or_default(),
             mean_luminance_cd_m2: FigureEntry::new(camera.mean_cd_m2),
+            mean_unseen_cd_m2: camera.mean_unseen_cd_m2,
+            mean_merged_cd_m2: camera.disc_radius_m.map(|_| camera.mean_merged_cd_m2),
+            disc_radius_m: camera.disc_radius_m,
             maximum_luminance_cd_m2: camera.maximum_cd_m2,
             mean_half_width_cd_m2: camera.mean_half_width_cd_m2,
             relative_half_width: camera.relative_half_width,
@@ -53,6 +62,9 @@ mod tests {
             "samples": 16,
             "files": ["view.exr", "view.png", "view-falsecolour.png"],
             "mean_luminance_cd_m2": {"value": 8.0, "half_width": 0.0},
+            "mean_unseen_cd_m2": 0.125,
+            "mean_merged_cd_m2": 0.5,
+            "disc_radius_m": 0.1,
             "maximum_luminance_cd_m2": 20.0,
             "mean_half_width_cd_m2": 0.5,
             "relative_half_width": 0.0625,

@@ -1,6 +1,6 @@
 //! Estimators of sensor values.
 
-mod bidirectional;
+pub(crate) mod bidirectional;
 pub(crate) mod block;
 pub(crate) mod exact;
 pub(crate) mod path_estimator;

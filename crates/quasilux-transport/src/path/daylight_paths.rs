@@ -45,8 +45,6 @@ pub(crate) fn trace<S: Spectrum>(
             measurement: Measurement::Illuminance { n, tests_pointlikes: false },
             map_end: None,
             caustics: None,
-            virtual_lights: None,
-            pixel: None,
             daylight: Some(search),
             sampler,
         }

@@ -6,7 +6,6 @@ pub(crate) mod daylight_paths;
 pub(crate) mod end;
 pub(crate) mod russian_roulette;
 pub(crate) mod sections;
-pub(crate) mod sketch;
 pub(crate) mod start;
 pub(crate) mod subpath_weights;
 pub(crate) mod trace;

@@ -111,8 +111,6 @@ impl<S: Spectrum> Section<'_, S> {
             let from = context.world.ray_origin_of_sensor(position, n);
             let measurement = Measurement::Illuminance { n, tests_pointlikes };
             Start {
-                virtual_lights: None,
-                pixel: None,
                 from,
                 measurement,
                 map_end: self.map_end.as_ref(),

@@ -2,7 +2,6 @@
 
 use crate::path::daylight::DaylightSearch;
 use crate::path::end::MapEnd;
-use crate::path::sketch::{PixelSketch, ProbedLights};
 use crate::photon::caustics::CausticLookup;
 use crate::spectrum::Spectrum;
 use crate::world::RayOrigin;
@@ -18,10 +17,6 @@ pub(crate) struct Start<'p, S> {
     pub(crate) map_end: Option<&'p MapEnd<'p, S>>,
     /// Light that it cannot find by itself.
     pub(crate) caustics: Option<CausticLookup<'p, S>>,
-    /// What stands for the light that comes from diffuse surfaces to its first.
-    pub(crate) virtual_lights: Option<&'p ProbedLights<'p, S>>,
-    /// What is known of the pixel that it starts from.
-    pub(crate) pixel: Option<&'p PixelSketch>,
     /// Where what comes from outside is kept apart, how.
     pub(crate) daylight: Option<DaylightSearch<'p>>,
     pub(crate) sampler: Sampler<'p>,

@@ -7,13 +7,12 @@
 //! estimation), and the path goes on for the rest. A path may end on an illumination map instead:
 //! the map's value stands for the rest.
 //!
-//! Read on at `direct_light`, `map_end` (ends on maps) and `virtual_light` (what pixels get).
+//! Read on at `direct_light` and `map_end` (ends on maps).
 
 mod direct_light;
 mod map_end;
 pub(crate) mod outside;
 mod specular_way;
-mod virtual_light;
 
 use crate::bsdf::TransportMode;
 use crate::context::Context;
@@ -24,11 +23,9 @@ use crate::path::contribution::PathContribution;
 use crate::path::daylight::Daylight;
 use crate::path::end::MapEnd;
 use crate::path::russian_roulette::{CERTAIN_BOUNCES, russian_roulette_factor};
-use crate::path::sketch::{PixelSketch, ProbedLights};
 use crate::path::start::{Measurement, Start};
 use crate::path::subpath_weights::product;
 use crate::photon::caustics::CausticLookup;
-use crate::photon::virtual_lights::Sums;
 use crate::purpose::Purpose;
 use crate::spectrum::Spectrum;
 use crate::world::vertex::{Surface, Vertex};
@@ -53,11 +50,6 @@ pub(crate) struct Path<'p, S> {
     number: u32,
     map_end: Option<&'p MapEnd<'p, S>>,
     caustics: Option<CausticLookup<'p, S>>,
-    /// What finds the light at its first surface beside it; `None` past that, where they do not.
-    virtual_lights: Option<&'p ProbedLights<'p, S>>,
-    /// Whether its last vertex has asked them.
-    has_asked_virtual: bool,
-    pixel: Option<&'p PixelSketch>,
     sampler: Sampler<'p>,
     from: RayOrigin,
     /// Unit direction in which it goes on.
@@ -96,7 +88,6 @@ pub(crate) struct PathWork<S> {
     choice: ChoiceWork,
     suns: SunChoice,
     images: ImageSamples<S>,
-    sums: Sums,
 }
 
 /// How a path goes on from a surface: factors on what the next surface sends.
@@ -131,8 +122,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
         start: Start<'p, S>,
         work: &mut PathWork<S>,
     ) -> Self {
-        let Start { from, measurement, map_end, caustics, virtual_lights, .. } = start;
-        let Start { pixel, daylight, mut sampler, .. } = start;
+        let Start { from, measurement, map_end, caustics, daylight, mut sampler } = start;
         let (direction, pdf_sr, beta) = match measurement {
             Measurement::Illuminance { n, .. } => {
                 let u = context.draw(&mut sampler, Purpose::FirstDirection, Sampler::next_2d);
@@ -145,9 +135,6 @@ impl<'p, S: Spectrum> Path<'p, S> {
             number,
             map_end,
             caustics,
-            virtual_lights,
-            has_asked_virtual: false,
-            pixel,
             sampler,
             from,
             direction,
@@ -198,12 +185,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
 
     /// The ray along which it goes on.
     pub(crate) fn query(&self) -> RayQuery {
-        let query = self.from.query(self.direction);
-        let probed = self.virtual_lights.filter(|_| self.has_asked_virtual);
-        match probed.and_then(|probed| probed.lights.reach_m) {
-            Some(reach_m) => RayQuery { ray: query.ray.up_to(reach_m), ..query },
-            None => query,
-        }
+        self.from.query(self.direction)
     }
 
     /// What became of light that the path asked for.
@@ -252,7 +234,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
         self.note_openings(context, at);
         let surface = &Surface::new(&context.world, at, self.direction);
         let &Surface { bsdf, wo, .. } = surface;
-        if !self.may_count(bsdf) || !self.takes_from_virtual_lights(bsdf, at) {
+        if !self.may_count(bsdf) {
             return false;
         }
         let carried = self.carried(bsdf);
@@ -297,7 +279,6 @@ impl<'p, S: Spectrum> Path<'p, S> {
         if bsdf.keeps_illuminance() {
             self.add_caustics(context, bounces, at);
         }
-        self.sample_direct_virtual_lights(context, bounces, at, work);
     }
 
     /// Draws the direction in which it goes on; whether there is one.

@@ -12,5 +12,4 @@ pub(crate) mod receiver;
 #[cfg(test)]
 mod tests;
 pub(crate) mod trace;
-pub(crate) mod virtual_lights;
 pub(crate) mod wave;

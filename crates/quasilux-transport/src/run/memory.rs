@@ -4,11 +4,12 @@
 //! What is only known when photons have landed is counted as the most that it may be: maps as if
 //! every landing met an element of its own, cells of surveys as if all were there.
 
+use crate::estimator::bidirectional::MOST_PHOTONS;
 use crate::importance::{MAX_NODES, Node};
 use crate::lights::{coarse_tables_bytes, tables_bytes};
 use crate::path::sections::PathSums;
 use crate::photon::map::{COARSE_ELEMENTS_ACROSS, ELEMENTS_ACROSS, MAX_NEW_ELEMENTS};
-use crate::run::pixels::{MAX_SETS, PHOTONS};
+use crate::run::pixels::INDICES;
 use crate::settings::{EstimatorKind, Reconstruction, Settings, Switch};
 use crate::spectrum::{Spectrum, is_grey};
 use crate::stats::tally::Sum;
@@ -21,11 +22,9 @@ const TRIANGLE_BYTES: u64 = 450;
 /// of them.
 const VALUE_BYTES: u64 = 4 * size_of::<f64>() as u64;
 /// Of a pixel: what is known of it, and its part of the files.
-const PIXEL_BYTES: u64 = 48;
-/// Virtual lights of a picture: what one takes, and how many photons of a set leave, as many as at
-/// a reflectance of 3/4.
-const VIRTUAL_LIGHT_BYTES: u64 = 112;
-const VIRTUAL_LIGHTS: u64 = 4 * PHOTONS;
+const PIXEL_BYTES: u64 = 56;
+/// Of a photon that serves pixels: two flights from narrow surfaces.
+const PHOTON_BYTES: u64 = 2 * 384;
 /// Cells of a survey at most, and what guides photons in each of them.
 const CELLS: u64 = 1 << 13;
 const GUIDE_BYTES: u64 = (MAX_NODES * size_of::<Node>()) as u64;
@@ -49,7 +48,7 @@ pub struct MemoryNeed {
     pub maps_bytes: u64,
     /// What a sample adds to them at most, while they are not.
     pub maps_bytes_a_sample: u64,
-    /// Pictures, and virtual lights of one of them at most.
+    /// Pictures, and photons that serve their pixels.
     pub pictures_bytes: u64,
 }
 
@@ -73,7 +72,7 @@ impl MemoryNeed {
             cells_bytes: cells_bytes(settings),
             pictures_bytes: total(pixels)
                 .saturating_mul(PIXEL_BYTES)
-                .saturating_add(virtual_lights_bytes(scene, settings)),
+                .saturating_add(picture_photons_bytes(scene, settings)),
             ..Self::default()
         };
         let maps = match settings.estimator {
@@ -157,21 +156,13 @@ fn cells_bytes(settings: &Settings) -> u64 {
     if guides_photons && settings.importance != Switch::Off { CELLS * GUIDE_BYTES } else { 0 }
 }
 
-/// Virtual lights in all replicates: a set for each path of a pixel, up to a number past which
-/// there are none; where a tolerance decides, as many as there may be.
-fn virtual_lights_bytes(scene: &Scene, settings: &Settings) -> u64 {
-    if settings.estimator == EstimatorKind::Path {
+/// Photons of the indices of pixels that are traced together, in all replicates, at most.
+fn picture_photons_bytes(scene: &Scene, settings: &Settings) -> u64 {
+    if scene.cameras.is_empty() || !settings.estimator.is_bounded() {
         return 0;
     }
-    let sets = scene.cameras.iter().map(|camera| {
-        let samples = match (camera.rel_tol, camera.samples.or(settings.max_samples)) {
-            (None, Some(samples)) => samples,
-            (Some(_), _) | (None, None) => MAX_SETS,
-        };
-        if samples <= MAX_SETS { samples } else { 0 }
-    });
     let replicates = settings.effective_replicates().into();
-    product([sets.max().unwrap_or(0), replicates, VIRTUAL_LIGHTS, VIRTUAL_LIGHT_BYTES])
+    product([replicates, INDICES, MOST_PHOTONS, PHOTON_BYTES])
 }
 
 fn product<const N: usize>(of: [u64; N]) -> u64 {
@@ -217,30 +208,6 @@ mod tests {
         assert!(grown(1 << 12, 0).maps_bytes > few.maps_bytes);
         assert!(few.total_bytes(Some(1)) < few.total_bytes(Some(1 << 10)));
         assert_eq!(few.total_bytes(Some(1 << 30)), few.total_bytes(None));
-    }
-
-    #[test]
-    fn virtual_lights_take_memory_up_to_their_number() {
-        let camera = |samples| quasilux_scene::Camera {
-            name: "eye".to_owned(),
-            position: glam::DVec3::ZERO,
-            target: glam::DVec3::X,
-            up: glam::DVec3::Z,
-            vertical_fov_rad: 1.0,
-            resolution: [10, 10],
-            samples,
-            rel_tol: None,
-        };
-        let bytes = |samples, estimator| {
-            let scene = Scene { cameras: vec![camera(samples)], ..Scene::default() };
-            let settings = Settings { estimator, ..Settings::default() };
-            MemoryNeed::new(&scene, &settings).pictures_bytes - 100 * PIXEL_BYTES
-        };
-        let one = bytes(Some(1), EstimatorKind::Auto);
-        assert_eq!(one, 16 * VIRTUAL_LIGHTS * VIRTUAL_LIGHT_BYTES);
-        assert_eq!(bytes(None, EstimatorKind::Auto), MAX_SETS * one);
-        assert_eq!(bytes(Some(MAX_SETS + 1), EstimatorKind::Auto), 0);
-        assert_eq!(bytes(Some(1), EstimatorKind::Path), 0);
     }
 
     #[test]

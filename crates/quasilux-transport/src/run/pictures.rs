@@ -11,7 +11,7 @@ use crate::context::Context;
 use crate::cutoff;
 use crate::path::sections::WorkCounts;
 use crate::run::pixels::{Darkroom, Exposure, Part};
-use crate::settings::{EstimatorKind, Settings};
+use crate::settings::Settings;
 use crate::spectrum::Spectrum;
 use crate::stats::estimates::Estimates;
 use crate::stats::observer::PictureProgress;
@@ -24,9 +24,11 @@ const REL_TOL: f64 = 0.05;
 /// Paths of each pixel in each replicate at most, where only a tolerance is wanted.
 const MAX_SAMPLES: u64 = 1 << 12;
 /// Before so many of them no picture is called done: what few of them find says little of the rest;
-/// of plain paths, and beside virtual lights.
+/// of plain paths, and of bidirectional ones.
 const MIN_SAMPLES: u64 = 4;
-const MIN_SAMPLES_BESIDE_LIGHTS: u64 = 2;
+const MIN_SAMPLES_OF_BIDIRECTIONAL: u64 = 2;
+/// Light of photons is told above this part of the tolerance.
+const BLURRED: f64 = 0.1;
 /// A picture of fewer blocks has no sample.
 const MIN_BLOCKS: usize = 64;
 /// Paths of a first pass at most, so that there soon is a picture.
@@ -51,11 +53,17 @@ pub(crate) fn add_pictures<S: Spectrum>(
     let mut work = WorkCounts::default();
     for (number, camera) in scene.cameras.iter().enumerate() {
         let wish = Wish::new(camera, settings);
-        let darkroom = Darkroom::new(context, settings, number as u32, camera);
-        let mut sitting = Sitting { number, wish, darkroom };
-        let Exposure { figures, invalid } = sitting.take(&mut work, watch);
+        let replicates = settings.effective_replicates() as usize;
+        let mut taken = Exposure::nothing(wish.rel_tol, replicates);
+        if let Some(darkroom) = Darkroom::new(context, settings, number as u32, camera, watch) {
+            let mut sitting = Sitting { number, wish, darkroom };
+            taken = sitting.take(taken, &mut work, watch);
+            taken.invalid += sitting.darkroom.invalid_photons();
+        }
+        let Exposure { figures, invalid } = taken;
         estimates.warnings.extend(wish.complaint(camera, &figures));
-        estimates.invalid_contributions += invalid + sitting.darkroom.invalid_photons();
+        estimates.warnings.extend(wish.blur(camera, &figures));
+        estimates.invalid_contributions += invalid;
         estimates.cameras.push(figures);
     }
     if scene.sensors.is_empty() {
@@ -84,9 +92,9 @@ struct Wish {
 
 impl Wish {
     fn new(camera: &Camera, settings: &Settings) -> Self {
-        let min_samples = match settings.estimator {
-            EstimatorKind::Path => MIN_SAMPLES,
-            _ => MIN_SAMPLES_BESIDE_LIGHTS,
+        let min_samples = match settings.estimator.is_bounded() {
+            true => MIN_SAMPLES_OF_BIDIRECTIONAL,
+            false => MIN_SAMPLES,
         };
         let limited = |rel_tol, most| Self { rel_tol, most, min_samples, all_or_nothing: false };
         // Part of a set whose number of points is fixed would leave part of its lights out.
@@ -134,6 +142,24 @@ impl Wish {
         )
     }
 
+    /// That light is blurred which only photons found, where that is more than a tenth of what may
+    /// be off.
+    fn blur(&self, camera: &Camera, figures: &CameraEstimates) -> Option<String> {
+        let radius_m = figures.disc_radius_m?;
+        let means = &figures.replicate_mean_cd_m2;
+        let mean_cd_m2 = means.iter().sum::<f64>() / means.len() as f64;
+        let share = figures.merged_mean_cd_m2 / mean_cd_m2;
+        let told = BLURRED * self.rel_tol.unwrap_or(REL_TOL);
+        (share > told).then(|| {
+            format!(
+                "{:.1} % of the light in the picture of camera \"{}\" comes from photons, over \
+                 mirrors or through glass: it is blurred over {radius_m:.2} m",
+                100.0 * share,
+                camera.name
+            )
+        })
+    }
+
     /// What a reader must know of a picture that is not what was wanted.
     fn complaint(&self, camera: &Camera, figures: &CameraEstimates) -> Option<String> {
         let name = &camera.name;
@@ -178,28 +204,31 @@ struct Sitting<'a, S> {
 
 impl<S: Spectrum> Sitting<'_, S> {
     /// Pass after pass up to what is wanted, or until the observer stops one.
-    fn take(&mut self, work: &mut WorkCounts, watch: &mut Watch<'_>) -> Exposure {
-        let mut taken = self.darkroom.unexposed();
-        let mut next = Some(self.first(work, watch));
+    fn take(
+        &mut self,
+        mut taken: Exposure,
+        work: &mut WorkCounts,
+        watch: &mut Watch<'_>,
+    ) -> Exposure {
+        let mut next = Some(self.first(&taken.figures, work, watch));
         while let Some(samples) = next {
             let Some(exposure) = self.pass(samples, &taken.figures, work, watch) else { break };
             taken = exposure;
             taken.figures.is_done = self.wish.is_done(&taken.figures);
             next = self.wish.next(&taken.figures);
+            taken.figures.rel_tol = self.wish.rel_tol;
         }
-        taken.figures.rel_tol = self.wish.rel_tol;
         taken
     }
 
     /// Paths of the first pass: those that a sample of the picture says are enough, if few are.
-    fn first(&self, work: &mut WorkCounts, watch: &mut Watch<'_>) -> u64 {
+    fn first(&self, before: &CameraEstimates, work: &mut WorkCounts, watch: &mut Watch<'_>) -> u64 {
         let Self { wish, darkroom, .. } = self;
         let first = wish.first();
-        let is_sampled = wish.rel_tol.is_some() && darkroom.has_virtual_lights();
-        if !is_sampled || darkroom.block_count() < MIN_BLOCKS {
+        if wish.rel_tol.is_none() || darkroom.block_count() < MIN_BLOCKS {
             return first;
         }
-        let at = self.progress(first, &darkroom.unexposed().figures);
+        let at = self.progress(first, before);
         let sample = darkroom.expose(first, Part::Sample, work, |paths, rays, _| {
             watch.tick_picture(paths, rays, at, 0.0)
         });

@@ -2,25 +2,21 @@
 //!
 //! `L_pixel` is the integral of `L(x, w(p))` over the places p of the pixel, a unit square of the
 //! picture (box filter). Its paths start at the pinhole, through the place that their first two
-//! coordinates give, and go on like the paths of sensors, but for the light that diffuse surfaces
-//! send to each other: virtual lights stand for most of it (`photon/virtual_lights.rs`). With the
-//! estimator `path` all are plain paths. Neither has a bias. Light that no path finds comes from
-//! photon density.
+//! coordinates give, and find light as those of sensors do: by the default as bidirectional paths
+//! ([`PixelTracer`]), by other estimators as plain paths beside photon density of light that no
+//! path finds.
 //!
-//! No sums are kept for a picture: a block of pixels is looked over (`path/sketch.rs`), traced in
-//! all replicates, then summarised, and 24 bytes a pixel stay. `run/pictures.rs` says how many
-//! paths a pixel gets; those where something ends, a surface or a shadow, get more.
+//! No sums are kept for a picture: a few blocks of pixels are traced in all replicates, then
+//! summarised, and 32 bytes a pixel stay. `run/pictures.rs` says how many paths a pixel gets.
 
 use crate::context::{Context, Stream};
+use crate::estimator::bidirectional::{PictureLight, PixelSink, PixelTracer, PixelUnit};
 use crate::path::contribution::PathContribution;
 use crate::path::sections::WorkCounts;
-use crate::path::sketch::{Block, Sketch, SketchWork};
 use crate::path::start::{Measurement, Start};
 use crate::path::wave::{PathWave, WAVE};
 use crate::photon::caustics::CausticMap;
-use crate::photon::counts::PhotonCounts;
-use crate::photon::virtual_lights::{Surfaces, VirtualLights};
-use crate::settings::{EstimatorKind, Settings};
+use crate::settings::Settings;
 use crate::spectrum::Spectrum;
 use crate::stats::interval::{Interval, t_quantile_for};
 use crate::stats::picture::{CameraEstimates, Pixel};
@@ -29,24 +25,20 @@ use crate::stats::watch::Watch;
 use quasilux_sampling::{PointSet, Sampler};
 use quasilux_scene::{Camera, View};
 use rayon::prelude::*;
+use std::ops::Range;
 use std::sync::Arc;
 
-/// Photons that leave a set of virtual lights.
-pub(super) const PHOTONS: u64 = 1 << 11;
-/// Sets of them in each replicate at most, one for each path of a pixel: there is memory for no
-/// more. Passes with more paths have none: an error of sets that paths share would stay.
-pub(super) const MAX_SETS: u64 = 16;
-/// Paths between two words to the observer.
-const ROUND: u64 = 1 << 17;
 /// Pixels along the edge of a block.
 const BLOCK: usize = 16;
+/// Blocks that are traced together, so that all threads have work, and that the same light serves
+/// before it is traced again.
+const TOGETHER: usize = 24;
+const SERVED: usize = 240;
+/// Indices between two words to the observer: half a second of a processor with two cores.
+pub(super) const INDICES: u64 = 2;
 /// A sample is one block in so many of each row, further right by so many from row to row.
 const SAMPLE_STEP: usize = 8;
 const SAMPLE_SLOPE: usize = 3;
-/// Blocks of a round at least, so that all threads have work.
-const MIN_BLOCKS: u64 = 24;
-/// A pixel whose corners disagree has so many times the paths of others.
-const ODD: u64 = 4;
 /// Channels of a picture.
 const RGB: usize = 3;
 
@@ -61,10 +53,14 @@ pub(super) struct Darkroom<'a, S> {
     /// The quantile behind the half-widths of pixels, which takes long to find.
     t: Option<f64>,
     quantum: Quantum,
-    /// Light that no path finds.
-    caustics: Option<CausticMap<S>>,
-    /// Where virtual lights may lie, if there are any.
-    surfaces: Option<Surfaces>,
+    tracer: Tracer<'a, S>,
+}
+
+/// How light is followed.
+enum Tracer<'a, S> {
+    /// By plain paths, and what they do not find.
+    Paths(Option<Box<CausticMap<S>>>),
+    Bidirectional(Box<PixelTracer<'a, S>>),
 }
 
 /// A picture, and how many contributions are not in it.
@@ -81,61 +77,100 @@ pub(super) enum Part {
     Sample,
 }
 
-/// Working space of a thread.
-#[derive(Default)]
-struct BlockWork<S: 'static> {
-    wave: PathWave<S>,
-    sketch: SketchWork,
+/// A rectangle of pixels.
+#[derive(Clone, Copy, Debug)]
+struct Block {
+    /// Column and row of its top left pixel.
+    first: [usize; 2],
+    /// Pixels across and down.
+    size: [usize; 2],
 }
 
-/// A block before its paths are traced.
-struct BlockSitting<'s> {
-    /// Paths of a pixel that has no more than others.
-    samples: u64,
+/// A block while it is traced.
+struct Tray {
     /// Numbers of its pixels in the picture.
     places: Vec<usize>,
-    /// Paths of each pixel in each replicate.
-    paths: Vec<u64>,
-    sketch: Option<&'s Sketch>,
-}
-
-/// One path of one pixel of a block.
-struct PathNumber {
-    pixel: usize,
-    path: u64,
-}
-
-/// The virtual lights of some photons.
-struct Traced<S> {
-    lights: VirtualLights<S>,
-    counts: PhotonCounts,
-}
-
-/// The pixels of a block, all its paths traced.
-struct Developed {
-    pixels: Vec<Pixel>,
-    /// Of each replicate, all pixels together.
+    /// Of pixel p in replicate r at `p * replicates + r`.
     sums: Vec<PixelSums>,
-    work: WorkCounts,
+    /// Of each pixel, the smallest disc that photons count on, in m^2.
+    least_disc_m2: Vec<f64>,
+    /// How often light vertices are joined to what it sees.
+    per_sure_m2: f64,
 }
 
 /// What the paths of one pixel in one replicate found, on average.
 #[derive(Clone, Copy, Default)]
 struct PixelSums {
     channels: [Sum; RGB],
+    /// The part of their luminance that photons brought.
+    merged: Sum,
     /// Paths that came to a surface that reflects.
     reflected: u64,
 }
 
+/// Takes what paths of one replicate find.
+struct Developer<'t> {
+    tray: &'t mut Tray,
+    replicate: usize,
+    replicates: usize,
+    /// What one path of a pixel counts.
+    share: f64,
+    quantum: Quantum,
+}
+
+impl<S: Spectrum> PixelSink<S> for Developer<'_> {
+    fn add(&mut self, pixel: usize, light: S) {
+        let sums = &mut self.tray.sums[pixel * self.replicates + self.replicate];
+        sums.add(light * self.share, self.quantum);
+    }
+
+    fn add_merged(&mut self, pixel: usize, light: S) {
+        PixelSink::add(self, pixel, light);
+        let sums = &mut self.tray.sums[pixel * self.replicates + self.replicate];
+        sums.merged.add(light.luminance() * self.share, self.quantum);
+    }
+
+    fn arrive(&mut self, pixel: usize, disc_m2: f64) {
+        self.tray.sums[pixel * self.replicates + self.replicate].reflected += 1;
+        let least_m2 = &mut self.tray.least_disc_m2[pixel];
+        *least_m2 = least_m2.min(disc_m2);
+    }
+}
+
+impl Exposure {
+    /// No picture.
+    pub(super) fn nothing(rel_tol: Option<f64>, replicates: usize) -> Self {
+        let figures = CameraEstimates {
+            pixels: Arc::new([]),
+            replicate_mean_cd_m2: vec![0.0; replicates],
+            unseen_mean_cd_m2: None,
+            merged_mean_cd_m2: 0.0,
+            disc_radius_m: None,
+            samples: 0,
+            rel_tol,
+            is_done: false,
+        };
+        Self { figures, invalid: 0 }
+    }
+}
+
 impl<'a, S: Spectrum> Darkroom<'a, S> {
+    /// `None` when the observer stopped it.
     pub(super) fn new(
         context: &'a Context<'a, S>,
         settings: &Settings,
         number: u32,
         camera: &Camera,
-    ) -> Self {
+        watch: &mut Watch<'_>,
+    ) -> Option<Self> {
         let replicates = settings.effective_replicates();
-        Self {
+        let tracer = match settings.estimator.is_bounded() {
+            true => {
+                Tracer::Bidirectional(Box::new(PixelTracer::new(context, camera.pixels(), watch)?))
+            }
+            false => Tracer::Paths(CausticMap::new(context, settings, &[]).map(Box::new)),
+        };
+        Some(Self {
             context,
             number,
             view: camera.view(),
@@ -144,26 +179,16 @@ impl<'a, S: Spectrum> Darkroom<'a, S> {
             replicates,
             t: t_quantile_for(replicates as usize, 1.0 - settings.confidence),
             quantum: Quantum::for_reference(context.lights.reference_lx(&context.world)),
-            caustics: CausticMap::new(context, settings, &[]),
-            surfaces: (settings.estimator != EstimatorKind::Path).then(|| Surfaces::new(context)),
-        }
-    }
-
-    /// No picture.
-    pub(super) fn unexposed(&self) -> Exposure {
-        let figures = CameraEstimates {
-            pixels: Arc::new([]),
-            replicate_mean_cd_m2: vec![0.0; self.replicates as usize],
-            samples: 0,
-            rel_tol: None,
-            is_done: false,
-        };
-        Exposure { figures, invalid: 0 }
+            tracer,
+        })
     }
 
     /// Photons whose contributions are not in the pictures.
     pub(super) fn invalid_photons(&self) -> u64 {
-        self.caustics.as_ref().map_or(0, CausticMap::invalid)
+        match &self.tracer {
+            Tracer::Paths(Some(caustics)) => caustics.invalid(),
+            Tracer::Paths(None) | Tracer::Bidirectional(_) => 0,
+        }
     }
 
     /// Has so many photons in all look for light that no path finds; `None` where the observer
@@ -174,33 +199,10 @@ impl<'a, S: Spectrum> Darkroom<'a, S> {
         work: &mut WorkCounts,
         watch: &mut Watch<'_>,
     ) -> Option<()> {
-        let Some(caustics) = &mut self.caustics else { return Some(()) };
-        work.rays += caustics.grow(self.context, photons, watch)?;
+        if let Tracer::Paths(Some(caustics)) = &mut self.tracer {
+            work.rays += caustics.grow(self.context, photons, watch)?;
+        }
         Some(())
-    }
-
-    /// Virtual lights by replicate, a set for each path of a pixel; none for plain paths.
-    fn virtual_lights(&self, samples: u64, work: &mut WorkCounts) -> Vec<Vec<VirtualLights<S>>> {
-        let Some(surfaces) = self.surfaces.filter(|_| samples <= MAX_SETS) else {
-            return Vec::new();
-        };
-        let trace = |replicate: u32, set: u64| {
-            let mut counts = PhotonCounts::default();
-            let indices = set * PHOTONS..(set + 1) * PHOTONS;
-            let lights =
-                VirtualLights::trace(self.context, surfaces, replicate, indices, &mut counts);
-            Traced { lights, counts }
-        };
-        let of_replicate = |replicate: u32| -> Vec<Traced<S>> {
-            (0..samples).into_par_iter().map(|set| trace(replicate, set)).collect()
-        };
-        let traced = (0..self.replicates).map(of_replicate);
-        let mut take = |Traced { lights, counts }: Traced<S>| {
-            work.rays += counts.rays;
-            work.endless += counts.endless;
-            lights
-        };
-        traced.map(|of| of.into_iter().map(&mut take).collect()).collect()
     }
 
     /// One pass with so many paths of each pixel in each replicate over the whole picture, or over
@@ -213,48 +215,61 @@ impl<'a, S: Spectrum> Darkroom<'a, S> {
         work: &mut WorkCounts,
         mut tick: impl FnMut(u64, u64, f64) -> bool,
     ) -> Option<Exposure> {
-        let lights = self.virtual_lights(samples, work);
         let blocks = self.blocks(part);
-        let paths_a_block =
-            samples.saturating_mul(u64::from(self.replicates) * (BLOCK * BLOCK) as u64);
-        let round = (ROUND / paths_a_block).max(MIN_BLOCKS) as usize;
         let mut pixels = vec![Pixel::default(); self.pixels];
         let mut sums = vec![PixelSums::default(); self.replicates as usize];
-        let mut done = 0;
-        for round in blocks.chunks(round) {
-            let taken: Vec<Developed> = round
-                .par_iter()
-                .map_init(BlockWork::default, |work, &block| {
-                    self.trace(block, samples, &lights, work)
-                })
-                .collect();
-            let before = (work.paths, work.rays);
-            for (found, &block) in taken.into_iter().zip(round) {
-                self.places(block).zip(found.pixels).for_each(|(place, own)| pixels[place] = own);
-                sums.iter_mut().zip(found.sums).for_each(|(sum, found)| sum.merge(found));
-                *work += found.work;
+        let mut done = 0.0;
+        for served in blocks.chunks(SERVED) {
+            let mut trays: Vec<Tray> = served.par_iter().map(|it| self.tray(*it)).collect();
+            let mut indices = 0..INDICES.min(samples);
+            while !indices.is_empty() {
+                let light = self.light(indices.clone(), work);
+                for together in trays.chunks_mut(TOGETHER) {
+                    done += (indices.end - indices.start) as f64 * together.len() as f64;
+                    let cost = self.trace(together, &light, indices.clone(), samples);
+                    let (paths, rays) = (cost.paths, cost.rays);
+                    *work += cost;
+                    let all = samples as f64 * blocks.len() as f64;
+                    if !tick(paths, rays, done / all) && done < all {
+                        return None;
+                    }
+                }
+                indices = indices.end..(indices.end + INDICES).min(samples);
             }
-            done += round.len();
-            let (paths, rays) = (work.paths - before.0, work.rays - before.1);
-            if !tick(paths, rays, done as f64 / blocks.len() as f64) && done < blocks.len() {
-                return None;
+            for tray in trays {
+                let own = tray.sums.chunks_exact(self.replicates as usize);
+                for (own, (place, disc_m2)) in own.zip(tray.places.iter().zip(&tray.least_disc_m2))
+                {
+                    sums.iter_mut().zip(own).for_each(|(sum, own)| sum.merge(*own));
+                    pixels[*place] = self.pixel(own, samples, *disc_m2);
+                }
             }
         }
         if let Part::Sample = part {
             let places = blocks.iter().flat_map(|&block| self.places(block));
             pixels = places.map(|place| pixels[place]).collect();
         }
+        let invalid = sums.iter().flat_map(|sums| sums.channels).map(|sum| sum.invalid).sum();
+        Some(Exposure { figures: self.figures(pixels, &sums, samples), invalid })
+    }
+
+    /// What is known of a picture; the sums are those of all its pixels in each replicate.
+    fn figures(&self, pixels: Vec<Pixel>, sums: &[PixelSums], samples: u64) -> CameraEstimates {
         let n = pixels.len() as f64;
-        let mean = |sums: &PixelSums| self.mean(sums).luminance() / n;
-        let figures = CameraEstimates {
+        let merged = sums.iter().map(|sums| self.quantum.value(sums.merged));
+        CameraEstimates {
+            unseen_mean_cd_m2: self.unseen_of_mean(&pixels, samples),
+            merged_mean_cd_m2: merged.sum::<f64>() / (n * sums.len() as f64),
+            disc_radius_m: match &self.tracer {
+                Tracer::Paths(_) => None,
+                Tracer::Bidirectional(tracer) => tracer.disc_radius_m(),
+            },
             pixels: pixels.into(),
-            replicate_mean_cd_m2: sums.iter().map(mean).collect(),
+            replicate_mean_cd_m2: sums.iter().map(|it| self.mean(it).luminance() / n).collect(),
             samples,
             rel_tol: None,
             is_done: false,
-        };
-        let invalid = sums.iter().flat_map(|sums| sums.channels).map(|sum| sum.invalid).sum();
-        Some(Exposure { figures, invalid })
+        }
     }
 
     /// How many blocks a picture has.
@@ -262,21 +277,14 @@ impl<'a, S: Spectrum> Darkroom<'a, S> {
         self.blocks(Part::All).len()
     }
 
-    /// Whether virtual lights stand for the light that diffuse surfaces send.
-    pub(super) fn has_virtual_lights(&self) -> bool {
-        self.surfaces.is_some()
-    }
-
     /// The blocks of the picture, row by row.
     fn blocks(&self, part: Part) -> Vec<Block> {
         let [width, height] = [self.width, self.pixels / self.width];
-        let size = |first: usize, all: usize| (all - first).min(BLOCK) as u32;
+        let size = |first: usize, all: usize| (all - first).min(BLOCK);
         let firsts =
             (0..height).step_by(BLOCK).flat_map(|y| (0..width).step_by(BLOCK).map(move |x| [x, y]));
-        let block = |[x, y]: [usize; 2]| Block {
-            first: [x as u32, y as u32],
-            size: [size(x, width), size(y, height)],
-        };
+        let block =
+            |[x, y]: [usize; 2]| Block { first: [x, y], size: [size(x, width), size(y, height)] };
         let is_in = |[x, y]: &[usize; 2]| match part {
             Part::All => true,
             Part::Sample => (x / BLOCK + SAMPLE_SLOPE * (y / BLOCK)).is_multiple_of(SAMPLE_STEP),
@@ -288,108 +296,145 @@ impl<'a, S: Spectrum> Darkroom<'a, S> {
     fn places(&self, block: Block) -> impl Iterator<Item = usize> {
         let Block { first: [x0, y0], size: [across, down] } = block;
         let width = self.width;
-        let row = move |y: u32| (x0..x0 + across).map(move |x| y as usize * width + x as usize);
-        (y0..y0 + down).flat_map(row)
+        (y0..y0 + down).flat_map(move |y| (x0..x0 + across).map(move |x| y * width + x))
     }
 
-    /// Traces all paths of the pixels of a block and summarises each.
+    fn tray(&self, block: Block) -> Tray {
+        let places: Vec<usize> = self.places(block).collect();
+        let per_sure_m2 = match &self.tracer {
+            Tracer::Paths(_) => 0.0,
+            Tracer::Bidirectional(tracer) => {
+                let quarter = |x: f64, y: f64| {
+                    let place =
+                        |first: usize, size: usize, at: f64| first as f64 + at * size as f64;
+                    let Block { first, size } = block;
+                    self.view.direction([place(first[0], size[0], x), place(first[1], size[1], y)])
+                };
+                let quarters = [0.25, 0.75].map(|y| [0.25, 0.75].map(|x| quarter(x, y)));
+                tracer.per_sure_m2(self.view.position, quarters.as_flattened())
+            }
+        };
+        let count = places.len();
+        Tray {
+            places,
+            sums: vec![PixelSums::default(); count * self.replicates as usize],
+            least_disc_m2: vec![f64::INFINITY; count],
+            per_sure_m2,
+        }
+    }
+
+    /// What serves all pixels, of each replicate; nothing for plain paths.
+    fn light(&self, indices: Range<u64>, work: &mut WorkCounts) -> Vec<PictureLight<S>> {
+        let Tracer::Bidirectional(tracer) = &self.tracer else { return Vec::new() };
+        let replicates = (0..self.replicates).into_par_iter();
+        let light = replicates.map(|replicate| tracer.light(replicate, indices.clone()));
+        let light: Vec<PictureLight<S>> = light.collect();
+        light.iter().for_each(|light| *work += light.work.clone());
+        light
+    }
+
+    /// Traces paths of the pixels of some blocks in all replicates: these of so many.
     fn trace(
         &self,
-        block: Block,
+        trays: &mut [Tray],
+        light: &[PictureLight<S>],
+        indices: Range<u64>,
         samples: u64,
-        lights: &[Vec<VirtualLights<S>>],
-        work: &mut BlockWork<S>,
-    ) -> Developed {
-        let sketch = (!lights.is_empty())
-            .then(|| Sketch::new(self.context, &self.view, block, &mut work.sketch));
-        let paths = |pixel: usize| match &sketch {
-            Some(sketch) if !sketch.pixel(pixel).is_plain => samples.saturating_mul(ODD),
-            _ => samples,
+    ) -> WorkCounts {
+        let of_tray = |wave: &mut PathWave<S>, tray: &mut Tray| {
+            let mut work = WorkCounts::default();
+            for replicate in 0..self.replicates {
+                let light = light.get(replicate as usize);
+                let sink = Developer {
+                    tray,
+                    replicate: replicate as usize,
+                    replicates: self.replicates as usize,
+                    share: 1.0 / samples as f64,
+                    quantum: self.quantum,
+                };
+                work += match (&self.tracer, light) {
+                    (Tracer::Bidirectional(tracer), Some(light)) => {
+                        self.trace_bidirectional(tracer, light, sink)
+                    }
+                    (Tracer::Bidirectional(_), None) => WorkCounts::default(),
+                    (Tracer::Paths(caustics), _) => {
+                        self.trace_paths(caustics.as_deref(), indices.clone(), sink, wave)
+                    }
+                };
+            }
+            work
         };
-        let places: Vec<usize> = self.places(block).collect();
-        let sitting = BlockSitting {
-            paths: (0..places.len()).map(paths).collect(),
-            samples,
-            places,
-            sketch: sketch.as_ref(),
-        };
-        let mut counts = WorkCounts::default();
-        counts.rays += sketch.as_ref().map_or(0, |sketch| sketch.rays);
-        let replicates = self.replicates as usize;
-        let mut sums = vec![PixelSums::default(); sitting.places.len() * replicates];
-        for replicate in 0..replicates {
-            let lights = lights.get(replicate).map_or(&[][..], Vec::as_slice);
-            let own = self.trace_replicate(&sitting, replicate as u32, lights, work, &mut counts);
-            let of_pixels = sums.iter_mut().skip(replicate).step_by(replicates);
-            of_pixels.zip(own).for_each(|(sums, own)| *sums = own);
-        }
-        counts.rays += work.wave.take_rays();
-        let mut of_replicates = vec![PixelSums::default(); replicates];
-        for own in sums.chunks_exact(replicates) {
-            of_replicates.iter_mut().zip(own).for_each(|(sum, own)| sum.merge(*own));
-        }
-        let pixels = sums.chunks_exact(replicates).map(|own| self.pixel(own)).collect();
-        Developed { pixels, sums: of_replicates, work: counts }
+        let works = trays.par_iter_mut().map_init(PathWave::default, of_tray);
+        let works: Vec<WorkCounts> = works.collect();
+        works.into_iter().fold(WorkCounts::default(), |mut sum, own| {
+            sum += own;
+            sum
+        })
     }
 
-    /// The paths of the pixels of a block in one replicate.
-    fn trace_replicate(
+    /// Bidirectional paths of pixels in the replicate of a sink.
+    fn trace_bidirectional(
         &self,
-        sitting: &BlockSitting<'_>,
-        replicate: u32,
-        lights: &[VirtualLights<S>],
-        work: &mut BlockWork<S>,
-        counts: &mut WorkCounts,
-    ) -> Vec<PixelSums> {
-        let BlockSitting { samples, places, paths, sketch } = sitting;
+        tracer: &PixelTracer<'_, S>,
+        light: &PictureLight<S>,
+        mut sink: Developer<'_>,
+    ) -> WorkCounts {
+        let places = sink.tray.places.clone();
+        let unit = PixelUnit {
+            camera: self.number,
+            view: &self.view,
+            width: self.width,
+            pixels: &places,
+            replicate: sink.replicate as u32,
+            per_sure_m2: sink.tray.per_sure_m2,
+            light,
+        };
+        tracer.trace(&unit, &mut sink)
+    }
+
+    /// Plain paths of pixels in the replicate of a sink.
+    fn trace_paths(
+        &self,
+        caustics: Option<&CausticMap<S>>,
+        indices: Range<u64>,
+        mut sink: Developer<'_>,
+        wave: &mut PathWave<S>,
+    ) -> WorkCounts {
+        let places = sink.tray.places.clone();
+        let replicate = sink.replicate as u32;
         let stream = |&pixel: &usize| Stream::Pixel { camera: self.number, pixel: pixel as u32 };
         let points: Vec<PointSet> =
             places.iter().map(|pixel| self.context.points(replicate, stream(pixel))).collect();
-        let mut probed = Vec::with_capacity(lights.len());
-        for (set, lights) in (0..).zip(lights) {
-            let Some(sketch) = sketch else { break };
-            // No path of the pixel has these coordinates.
-            let u = Sampler::new(&points[0], set).child(1).next_1d();
-            probed.push(sketch.probe(&self.context.world, lights, u, &mut work.sketch));
-            counts.rays += work.sketch.rays();
-        }
-        let set = |pixel: usize, path: u64| (path / (paths[pixel] / samples)) as usize;
-        let mut sums = vec![PixelSums::default(); places.len()];
-        let mut numbers = (0..places.len())
-            .flat_map(|pixel| (0..paths[pixel]).map(move |path| PathNumber { pixel, path }))
-            .peekable();
-        while numbers.peek().is_some() {
-            let together: Vec<PathNumber> = numbers.by_ref().take(WAVE as usize).collect();
-            let starts = together.iter().map(|&PathNumber { pixel, path }| Start {
-                virtual_lights: probed.get(set(pixel, path)),
-                pixel: sketch.map(|sketch| sketch.pixel(pixel)),
-                ..self.start(places[pixel], replicate, &points[pixel], path)
+        let all = (0..places.len()).flat_map(|it| indices.clone().map(move |index| (it, index)));
+        let all: Vec<(usize, u64)> = all.collect();
+        let mut work = WorkCounts::default();
+        for together in all.chunks(WAVE as usize) {
+            let starts = together.iter().map(|&(pixel, index)| Start {
+                caustics: caustics.and_then(|caustics| caustics.map(replicate)),
+                ..self.start(places[pixel], &points[pixel], index)
             });
-            for (number, mut ended) in together.iter().zip(work.wave.trace(self.context, starts)) {
-                let ended = ended.end();
-                sums[number.pixel].add(&ended.found, paths[number.pixel], self.quantum);
-                counts.add(&ended);
+            for (&(pixel, _), mut path) in together.iter().zip(wave.trace(self.context, starts)) {
+                let ended = path.end();
+                let PathContribution { direct, indirect, reflected, .. } = &ended.found;
+                sink.add(pixel, *direct + *indirect);
+                if *reflected {
+                    PixelSink::<S>::arrive(&mut sink, pixel, f64::INFINITY);
+                }
+                work.add(&ended);
             }
         }
-        sums
+        work.rays += wave.take_rays();
+        work
     }
 
-    /// A path through the place of a pixel that its first two coordinates give.
-    fn start<'p>(
-        &'p self,
-        pixel: usize,
-        replicate: u32,
-        points: &'p PointSet,
-        index: u64,
-    ) -> Start<'p, S> {
+    /// A plain path through the place of a pixel that its first two coordinates give.
+    fn start<'p>(&'p self, pixel: usize, points: &'p PointSet, index: u64) -> Start<'p, S> {
         let mut sampler = Sampler::new(points, index);
         let [u, v] = sampler.next_2d();
         let (x, y) = ((pixel % self.width) as f64, (pixel / self.width) as f64);
         let direction = self.view.direction([x + u, y + v]);
         Start {
-            caustics: self.caustics.as_ref().and_then(|caustics| caustics.map(replicate)),
-            virtual_lights: None,
-            pixel: None,
+            caustics: None,
             from: self.context.world.ray_origin_of_sensor(self.view.position, direction),
             measurement: Measurement::Luminance { direction },
             map_end: None,
@@ -399,7 +444,7 @@ impl<'a, S: Spectrum> Darkroom<'a, S> {
     }
 
     /// What the replicates say together.
-    fn pixel(&self, own: &[PixelSums]) -> Pixel {
+    fn pixel(&self, own: &[PixelSums], samples: u64, disc_m2: f64) -> Pixel {
         let means = own.iter().map(|sums| self.mean(sums));
         let share = 1.0 / own.len() as f64;
         let mean = means.clone().fold(S::black(), |sum, mean| sum + mean) * share;
@@ -409,11 +454,26 @@ impl<'a, S: Spectrum> Darkroom<'a, S> {
             means.map(Spectrum::luminance),
             self.t.filter(|_| !(is_dark && was_looked_for)),
         );
+        let paths = samples as f64 * own.len() as f64;
+        let unseen_cd_m2 = match &self.tracer {
+            Tracer::Paths(_) => None,
+            Tracer::Bidirectional(tracer) => Some(tracer.unseen_cd_m2(paths, disc_m2) as f32),
+        };
         Pixel {
             rgb_cd_m2: std::array::from_fn(|c| mean.channel(c) as f32),
             luminance_cd_m2: interval.value as f32,
             half_width_cd_m2: interval.half_width.map(|half_width| half_width as f32),
+            unseen_cd_m2,
         }
+    }
+
+    /// The bound of the picture's mean: a path of one of m pixels adds an m-th.
+    fn unseen_of_mean(&self, pixels: &[Pixel], samples: u64) -> Option<f64> {
+        let Tracer::Bidirectional(tracer) = &self.tracer else { return None };
+        let m = pixels.len() as f64;
+        let of_pixels = pixels.iter().filter_map(|pixel| pixel.unseen_cd_m2).map(f64::from);
+        let paths = samples as f64 * f64::from(self.replicates) * m;
+        Some(tracer.unseen_cd_m2(paths, 0.0).min(of_pixels.sum::<f64>() / m))
     }
 
     fn mean(&self, sums: &PixelSums) -> S {
@@ -422,13 +482,10 @@ impl<'a, S: Spectrum> Darkroom<'a, S> {
 }
 
 impl PixelSums {
-    /// Adds what one of so many paths found; what virtual lights are corrected by may be negative.
-    fn add<S: Spectrum>(&mut self, found: &PathContribution<S>, paths: u64, quantum: Quantum) {
-        let light = (found.direct + found.indirect) * (1.0 / paths as f64);
+    fn add<S: Spectrum>(&mut self, light: S, quantum: Quantum) {
         for (c, channel) in self.channels.iter_mut().enumerate().take(S::CHANNELS) {
-            channel.add_signed(light.channel(c), quantum);
+            channel.add(light.channel(c), quantum);
         }
-        self.reflected += u64::from(found.reflected);
     }
 
     fn is_zero(&self) -> bool {
@@ -437,6 +494,7 @@ impl PixelSums {
 
     fn merge(&mut self, other: Self) {
         self.channels.iter_mut().zip(other.channels).for_each(|(sum, other)| *sum += other);
+        self.merged += other.merged;
         self.reflected += other.reflected;
     }
 }

@@ -279,7 +279,7 @@ pub(crate) fn look<S: Spectrum>(
     estimates.warnings.extend(caveats(scene, settings));
     estimates.warnings.extend(context.warning.clone());
     // An estimator with a bound says itself what it cannot make.
-    let is_bounded = estimates.sensors.iter().any(|sensor| sensor.unseen.is_some());
+    let is_bounded = settings.estimator.is_bounded();
     if !is_bounded {
         estimates.cannot_see = cannot_see(context, scene, settings);
     }

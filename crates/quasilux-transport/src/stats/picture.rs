@@ -10,6 +10,14 @@ pub struct CameraEstimates {
     pub pixels: Arc<[Pixel]>,
     /// Mean luminance of the picture in cd/m^2, one value a replicate.
     pub replicate_mean_cd_m2: Vec<f64>,
+    /// The part of the mean luminance, in cd/m^2 at most, that may come by ways on which no sample
+    /// lay, with [`UNSEEN_CONFIDENCE`](crate::unseen::UNSEEN_CONFIDENCE); `None` of plain paths.
+    pub unseen_mean_cd_m2: Option<f64>,
+    /// The part of the mean luminance, in cd/m^2, that photons brought: what lies within the radius
+    /// of a disc around the places that pixels show has the mean over that disc.
+    pub merged_mean_cd_m2: f64,
+    /// The radius of these discs in m, less beside walls; `None` where no photons count.
+    pub disc_radius_m: Option<f64>,
     /// Paths of each pixel in each replicate; 0 where there are no pixels.
     pub samples: u64,
     /// The half-width that was wanted, as [`Self::relative_half_width`] tells it; `None` where a
@@ -29,6 +37,10 @@ pub struct Pixel {
     /// Half the width of the luminance's interval, at the nominal confidence; `None` where there
     /// are fewer than two replicates, or where light was looked for and none found.
     pub half_width_cd_m2: Option<f32>,
+    /// Luminance at most that may come by ways on which no sample lay, with
+    /// [`UNSEEN_CONFIDENCE`](crate::unseen::UNSEEN_CONFIDENCE), infinite where nothing is known;
+    /// `None` of plain paths.
+    pub unseen_cd_m2: Option<f32>,
 }
 
 impl CameraEstimates {
@@ -59,10 +71,14 @@ mod tests {
             rgb_cd_m2: [luminance_cd_m2; 3],
             luminance_cd_m2,
             half_width_cd_m2,
+            unseen_cd_m2: None,
         };
         CameraEstimates {
             pixels: pixels.iter().map(pixel).collect(),
             replicate_mean_cd_m2: vec![9.0, 11.0],
+            unseen_mean_cd_m2: None,
+            merged_mean_cd_m2: 0.0,
+            disc_radius_m: None,
             samples: 1,
             rel_tol: None,
             is_done: true,

@@ -151,15 +151,6 @@ impl<S: Spectrum> ShadowQueue<S> {
         self.questions.push(question);
     }
 
-    /// Notes that `who` gets this light, which was reflected `bounces` times, if nothing at all
-    /// stands in the way of the ray.
-    pub(crate) fn push_connection(&mut self, who: u32, light: S, bounces: u32, ray: RayQuery) {
-        self.shadow_rays.push(ray);
-        let (shadow_rays, mirrors, max_panes) = (1, bounces, 0);
-        let question = Question { who, light, shadow_rays, mirrors, max_panes };
-        self.questions.push(question);
-    }
-
     /// Tells `receive` who gets how much light after how many mirrors and panes, in the order
     /// asked, and closes all questions.
     pub(crate) fn answer(&mut self, world: &World<S>, mut receive: impl FnMut(u32, S, u32)) {

@@ -4,17 +4,19 @@
 //! where it crosses. Cells count the mean over themselves, as is asked; discs count the mean over
 //! the disc for the value at their centre.
 
+use super::arrival::{Arrival, Asks};
 use super::boxes::BoxTree;
 use super::engine::Engine;
 use super::light_subpath::{LastVertex, Passing};
-use super::plan::{JoinEdge, Receiver, SUBPATHS};
+use super::plan::{JoinEdge, Receiver, favour};
+use crate::lights::Asking;
 use crate::spectrum::Spectrum;
 use crate::stats::targets::Target;
 use crate::world::World;
 use crate::world::flight::Flight;
 use crate::world::grid_plane::GridPlane;
+use crate::world::vertex::Vertex;
 use glam::DVec3;
-use std::f64::consts::FRAC_1_PI;
 use std::ops::Range;
 
 /// Sections of targets that photons may cross.
@@ -54,13 +56,7 @@ impl Counters {
         while let Some(receiver) = receivers.get(section) {
             match receiver.target {
                 Target::Point { .. } => {
-                    let radius_m = receiver.radius_m.unwrap_or_default();
-                    // A disc reaches along an axis as far as that is in its plane.
-                    let n = receiver.n;
-                    let reach = (DVec3::ONE - n * n).max(DVec3::ZERO);
-                    let reach = DVec3::new(reach.x.sqrt(), reach.y.sqrt(), reach.z.sqrt());
-                    let reach = reach * radius_m + world.hair_m();
-                    corners.push([receiver.position - reach, receiver.position + reach]);
+                    corners.push(receiver.corners_of_disc(world));
                     things.push(Counter::Disc { section });
                     section += 1;
                 }
@@ -108,8 +104,11 @@ impl Counters {
                 Counter::Cells(cells) => cells.crossed_by(flight),
             };
             let Some(Crossed { section, along_m, tilt }) = crossed else { return };
-            let light = share(engine, receivers[section], passing, along_m) * tilt;
-            receivers[section].assert_capped("a photon", light);
+            let receiver = receivers[section];
+            let from = engine.context.world.ray_origin_of_sensor(receiver.position, receiver.n);
+            let vertex = &Vertex::sensor(from, receiver.n);
+            let light = share(engine, receiver, vertex, passing, along_m) * tilt;
+            receiver.assert_capped("a photon", light);
             take(Crossing { section, light, bounces: passing.bounces });
         });
     }
@@ -139,8 +138,17 @@ impl Cells {
 }
 
 impl Receiver {
+    /// Of a box around its disc.
+    pub(super) fn corners_of_disc<S: Spectrum>(&self, world: &World<S>) -> [DVec3; 2] {
+        // A disc reaches along an axis as far as that is in its plane.
+        let reach = (DVec3::ONE - self.n * self.n).max(DVec3::ZERO);
+        let reach = DVec3::new(reach.x.sqrt(), reach.y.sqrt(), reach.z.sqrt());
+        let reach = reach * self.radius_m.unwrap_or_default() + world.hair_m();
+        [self.position - reach, self.position + reach]
+    }
+
     /// Where a photon crosses its disc from its front, with light that is not computed there.
-    fn crossed_by<S: Spectrum>(&self, passing: &Passing<'_, S>) -> Option<f64> {
+    pub(super) fn crossed_by<S: Spectrum>(&self, passing: &Passing<'_, S>) -> Option<f64> {
         let &Flight { from, direction, length_m } = &passing.flight;
         let approach = self.n.dot(direction);
         if approach >= 0.0 || passing.is_computed_at_points() {
@@ -155,18 +163,26 @@ impl Receiver {
     }
 }
 
-/// What a photon that crosses gives, in lx.
-fn share<S: Spectrum>(
+/// What a photon that crosses gives: `vertex` is the place that measures.
+pub(super) fn share<S: Spectrum>(
     engine: &Engine<'_, '_, S>,
     receiver: &Receiver,
+    vertex: &Vertex<'_, S>,
     passing: &Passing<'_, S>,
     along_m: f64,
 ) -> S {
-    let n = receiver.n;
     let direction = passing.flight.direction;
     let position = passing.flight.from + direction * along_m;
-    let cos = -n.dot(direction);
-    let weights = passing.weights_at(engine, position, n, along_m, receiver.is_cell());
+    let cos = vertex.cos(-direction);
+    let arrival = Arrival {
+        place: Asking { position, side: vertex.only_side(), own: vertex.facet() },
+        n: receiver.n,
+        along_m,
+        direction,
+        cos,
+        asks: if receiver.is_cell() { Asks::AllPointlikes } else { Asks::One },
+    };
+    let weights = passing.weights_at(engine, &arrival);
     let (alone, is_narrow) = match passing.leg.last {
         LastVertex::Light => (1.0, false),
         LastVertex::Surface { is_narrow, .. } if passing.leg.is_asked_for() => (1.0, is_narrow),
@@ -178,10 +194,12 @@ fn share<S: Spectrum>(
         }
     };
     let part = receiver.straight_part(passing.is_straight_from_area());
-    let photons = receiver.photons(is_narrow, passing.found_by(engine)) * part;
-    let others = weights.times(alone, 1.0).towards(cos * FRAC_1_PI);
+    let found_by = passing.found_by(engine);
+    let photons = receiver.photons(is_narrow, found_by) * part;
+    let others = weights.times(alone, 1.0).towards(vertex.survival_pdf_sr(-direction, favour(0)));
     let weight = photons / (photons + others);
-    passing.flux_lm * (weight / (receiver.area_m2 * part * SUBPATHS as f64))
+    let traced = receiver.traced(is_narrow, found_by);
+    vertex.weight(-direction) * passing.flux_lm * (weight / (receiver.area_m2 * part * traced))
 }
 
 /// The sections that follow one of a cell with others of the same grid, in ascending order of

@@ -2,13 +2,13 @@
 //! vertices of a light subpath.
 
 mod asking;
+mod start;
 
 use super::departure::Departure;
 use super::engine::Engine;
 use super::light_subpath::{LightSubpaths, is_narrow};
 use super::mirrored_way::MirroredWay;
 use super::plan::{CONNECTED, FoundBy, JoinEdge, Receiver, favour};
-use super::sums::TargetSums;
 use crate::bsdf::{Bsdf, BsdfSample, TransportMode};
 use crate::context::Context;
 use crate::cutoff::{Gain, MAX_EVENTS};
@@ -17,7 +17,6 @@ use crate::lights::{Asking, ChoiceWork, EmitterPlace};
 use crate::path::sections::WorkCounts;
 use crate::path::subpath_weights::SubpathWeights;
 use crate::spectrum::Spectrum;
-use crate::stats::tally::Quantum;
 use crate::world::frame::Frame;
 use crate::world::vertex::{Surface, Vertex};
 use crate::world::visibility::ShadowQueue;
@@ -26,19 +25,8 @@ use asking::EyeVertex;
 use glam::DVec3;
 use quasilux_bvh::{Hit, RayQuery};
 use quasilux_sampling::Sampler;
-use quasilux_sampling::warp::sample_cosine_hemisphere;
-use std::f64::consts::{FRAC_1_PI, PI};
-
-/// Where an eye path starts, and who gets what it finds.
-pub(super) struct Start<'p, S> {
-    /// Number of its sums.
-    pub(super) section: usize,
-    pub(super) receiver: &'p Receiver,
-    pub(super) light: &'p LightSubpaths<S>,
-    /// That of the light subpaths which it is connected to.
-    pub(super) subpath: usize,
-    pub(super) sampler: Sampler<'p>,
-}
+use start::Started;
+pub(super) use start::{FirstSurface, Start};
 
 /// Working space of eye paths that travel together.
 pub(super) struct EyePaths<S> {
@@ -90,7 +78,7 @@ struct MirroredFrom<S> {
 }
 
 /// What an eye path weighs, by who finds a light past narrow surfaces ([`FoundBy`]).
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 struct EyeWeights([SubpathWeights; 2]);
 
 impl EyeWeights {
@@ -120,16 +108,13 @@ impl<S: Spectrum> Default for EyePaths<S> {
     }
 }
 
-/// The sums of all sections, with their unit.
-pub(super) struct SectionSums<'f> {
-    pub(super) sums: &'f mut [TargetSums],
-    pub(super) quantum: Quantum,
-}
+/// Who gets what paths find.
+pub(super) trait Sink<S> {
+    /// Adds light that came to a section by so many surfaces and panes.
+    fn add(&mut self, section: usize, bounces: u32, light: S);
 
-impl SectionSums<'_> {
-    pub(super) fn add<S: Spectrum>(&mut self, section: usize, bounces: u32, light: S) {
-        self.sums[section].add(bounces, light.luminance(), self.quantum);
-    }
+    /// The same of light that a photon brought.
+    fn add_merged(&mut self, section: usize, bounces: u32, light: S);
 }
 
 impl<S: Spectrum> EyePaths<S> {
@@ -138,16 +123,18 @@ impl<S: Spectrum> EyePaths<S> {
         &mut self,
         engine: &Engine<'_, '_, S>,
         starts: impl Iterator<Item = Start<'p, S>>,
-        found: &mut SectionSums<'_>,
+        found: &mut dyn Sink<S>,
     ) where
         S: 'p,
     {
         let context = engine.context;
         let mut paths: Vec<EyePath<'p, S>> = Vec::new();
+        let mut travelling: Vec<u32> = Vec::new();
         for (number, start) in (0..).zip(starts) {
-            paths.push(EyePath::start(engine, number, start, self));
+            let Started { path, goes_on } = EyePath::start(engine, number, start, self);
+            paths.push(path);
+            travelling.extend(goes_on.then_some(number));
         }
-        let mut travelling: Vec<u32> = (0..paths.len() as u32).collect();
         for _ in 0..MAX_EVENTS {
             self.answer(engine, &paths, found);
             if travelling.is_empty() {
@@ -181,7 +168,7 @@ impl<S: Spectrum> EyePaths<S> {
         &mut self,
         engine: &Engine<'_, '_, S>,
         paths: &[EyePath<'_, S>],
-        found: &mut SectionSums<'_>,
+        found: &mut dyn Sink<S>,
     ) {
         self.shadows.answer(&engine.context.world, |who: u32, light: S, bounces: u32| {
             let path = &paths[who as usize];
@@ -190,61 +177,14 @@ impl<S: Spectrum> EyePaths<S> {
     }
 }
 
-impl<'p, S: Spectrum> EyePath<'p, S> {
-    fn start(
-        engine: &Engine<'_, '_, S>,
-        number: u32,
-        start: Start<'p, S>,
-        work: &mut EyePaths<S>,
-    ) -> Self {
-        let Start { section, receiver, light, subpath, mut sampler } = start;
-        let context = engine.context;
-        let from = receiver.origin(&context.world, || sampler.next_2d());
-        let n = receiver.n;
-        let local = DVec3::from_array(sample_cosine_hemisphere(sampler.next_2d()));
-        let (direction, pdf_sr) = (Frame::around(n).to_world(local), local.z * FRAC_1_PI);
-        let vertex = &Vertex::sensor(from, n);
-        let mut path = Self {
-            number,
-            section,
-            receiver,
-            light,
-            subpath,
-            sampler,
-            from,
-            direction,
-            distance_m: 0.0,
-            beta: S::white() * PI,
-            bounces: 0,
-            vertices: 0,
-            gain: Gain::NONE,
-            weights: EyeWeights([SubpathWeights::new(1.0 / pdf_sr, local.z / pdf_sr); 2]),
-            asked_from: Some(Asking::at(vertex)),
-            mirrored: MirroredFrom::new(context, vertex, pdf_sr),
-            bounces_asked: 0,
-        };
-        // Photons that come straight.
-        work.shadows.max_bounces = context.max_bounces.unwrap_or(u32::MAX);
-        let beside = |is_of_area: bool| EyeVertex {
-            vertex,
-            number: 0,
-            weights: EyeWeights([SubpathWeights::new(receiver.straight_m2(is_of_area), 0.0); 2]),
-        };
-        let eye_vertex = &beside(false);
-        if receiver.is_cell() {
-            path.sample_direct_all_pointlikes(engine, eye_vertex, work);
-        }
-        path.sample_direct_areas(engine, eye_vertex, &beside(true), work);
-        path
-    }
-
+impl<S: Spectrum> EyePath<'_, S> {
     /// What happens where its ray ends; whether it goes on.
     fn arrive(
         &mut self,
         engine: &Engine<'_, '_, S>,
         at: Option<&Interaction>,
         work: &mut EyePaths<S>,
-        found: &mut SectionSums<'_>,
+        found: &mut dyn Sink<S>,
     ) -> bool {
         let context = engine.context;
         let Some(at) = at else {
@@ -284,7 +224,7 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
         let distance_m = self.distance_m + at.distance_m;
         // Panes bend nothing: at the first surface this is the direction in which it left.
         let edge = JoinEdge {
-            cos: self.receiver.n.dot(self.direction),
+            cos: self.receiver.n.dot(self.direction).max(0.0),
             cos_there: wo.z,
             square_m2: distance_m * distance_m,
             is_narrow: is_narrow(bsdf),
@@ -381,7 +321,7 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
         engine: &Engine<'_, '_, S>,
         at: &Interaction,
         arrived: EyeWeights,
-        found: &mut SectionSums<'_>,
+        found: &mut dyn Sink<S>,
     ) {
         let context = engine.context;
         let emitted_cd_m2 = context.world.emitted_cd_m2(at);
@@ -422,7 +362,7 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
     }
 
     /// Adds what it finds where it leaves the scene.
-    fn add_outside(&self, engine: &Engine<'_, '_, S>, found: &mut SectionSums<'_>) {
+    fn add_outside(&self, engine: &Engine<'_, '_, S>, found: &mut dyn Sink<S>) {
         let Some(outside) = &engine.context.lights.outside else { return };
         let (direction, position) = (self.direction, self.from.position());
         let weights = self.straight(self.weights, false);

@@ -11,6 +11,7 @@ use super::plan::Receiver;
 use crate::context::Stream;
 use crate::spectrum::Spectrum;
 use crate::stats::watch::{POINTS_AT_ONCE, Watch};
+use glam::DVec3;
 use quasilux_sampling::Sampler;
 
 /// Joins of a light subpath to each target, on average. Of an eighth, a quarter and a half no one
@@ -31,20 +32,36 @@ pub(super) fn plan_joins<S: Spectrum>(
     if engine.receivers.is_empty() || engine.context.max_bounces == Some(0) {
         return Some(0);
     }
-    let points = engine.context.points_of_trial(0, Stream::SubpathPilots);
-    let samplers = (0..PILOTS).map(|index| Sampler::new(&points, index));
-    let pilots = LightSubpaths::trace(engine, samplers, |_| ());
-    let joins = JOINS * PILOTS as f64;
-    let plan = |receiver: &Receiver| {
-        let (all, mut per_m2) = (0..pilots.vertices.len(), Vec::new());
-        pilots.places.per_m2(all, receiver.n, receiver.position, &mut per_m2);
-        rate(&per_m2, joins)
-    };
+    let pilots = JoinPilots::trace(engine);
+    let plan = |receiver: &Receiver| pilots.rate(receiver.position, receiver.n, JOINS);
     let rates = watch.map_in_parts(&engine.receivers, POINTS_AT_ONCE, plan)?;
     for (receiver, rate) in engine.receivers.iter_mut().zip(rates) {
         receiver.per_sure_m2 = rate.unwrap_or(receiver.per_sure_m2);
     }
-    Some(pilots.rays)
+    Some(pilots.rays())
+}
+
+/// Subpaths that enter no estimate.
+pub(super) struct JoinPilots<S>(LightSubpaths<S>);
+
+impl<S: Spectrum> JoinPilots<S> {
+    pub(super) fn trace(engine: &Engine<'_, '_, S>) -> Self {
+        let points = engine.context.points_of_trial(0, Stream::SubpathPilots);
+        let samplers = (0..PILOTS).map(|index| Sampler::new(&points, index));
+        Self(LightSubpaths::trace(engine, samplers, |_| ()))
+    }
+
+    /// The constant of a place with this normal that a light subpath is joined to so often, on
+    /// average; `None` where nothing is before it.
+    pub(super) fn rate(&self, position: DVec3, n: DVec3, joins: f64) -> Option<f64> {
+        let (all, mut per_m2) = (0..self.0.vertices.len(), Vec::new());
+        self.0.places.per_m2(all, n, position, &mut per_m2);
+        rate(&per_m2, joins * PILOTS as f64)
+    }
+
+    pub(super) fn rays(&self) -> u64 {
+        self.0.rays
+    }
 }
 
 /// The c with `sum min(1, c v) = joins`, or a large one where that is never reached; `None` where

@@ -11,17 +11,18 @@ use super::plan::{JoinEdge, Receiver, favour};
 use crate::bsdf::TransportMode;
 use crate::path::subpath_weights::{of_connection, product};
 use crate::spectrum::Spectrum;
-use crate::world::RayOrigin;
+use crate::world::vertex::Vertex;
 use crate::world::visibility::ShadowQueue;
 use glam::DVec3;
 use quasilux_bvh::RayQuery;
-use std::f64::consts::FRAC_1_PI;
 use std::ops::Range;
 
 /// A place of a target that vertices are joined to.
-pub(super) struct Joiner<'r> {
+pub(super) struct Joiner<'r, S> {
     pub(super) receiver: &'r Receiver,
-    pub(super) from: RayOrigin,
+    pub(super) vertex: Vertex<'r, S>,
+    /// Surfaces and panes on the way of a light vertex at most, itself counted.
+    pub(super) max_bounces: u32,
     /// How far it is to the next vertex that is taken, in chances.
     pub(super) next: f64,
 }
@@ -38,9 +39,9 @@ impl<S> Default for JoinWork<S> {
     }
 }
 
-impl Joiner<'_> {
+impl<S: Spectrum> Joiner<'_, S> {
     /// Asks for the light of some of these vertices.
-    pub(super) fn join<S: Spectrum>(
+    pub(super) fn join(
         &mut self,
         engine: &Engine<'_, '_, S>,
         who: u32,
@@ -48,16 +49,15 @@ impl Joiner<'_> {
         numbers: Range<usize>,
         work: &mut JoinWork<S>,
     ) {
-        let most = engine.context.max_bounces.unwrap_or(u32::MAX);
         let JoinWork { per_m2, shadows } = work;
-        let from = self.from.position();
+        let from = self.vertex.position();
         light.places.per_m2(numbers.clone(), self.receiver.n, from, per_m2);
         for (number, per_m2) in numbers.zip(per_m2) {
             self.next -= self.receiver.join_probability_of(*per_m2);
             if self.next < 0.0 {
                 self.next += 1.0;
                 let vertex = &light.vertices[number];
-                if vertex.bounces < most {
+                if vertex.bounces < self.max_bounces {
                     Join::new(self, vertex).ask(self, engine, who, vertex, shadows);
                 }
             }
@@ -74,8 +74,8 @@ struct Join {
 }
 
 impl Join {
-    fn new<S>(joiner: &Joiner<'_>, vertex: &LightVertex<S>) -> Self {
-        let way = vertex.at.position - joiner.from.position();
+    fn new<S: Spectrum>(joiner: &Joiner<'_, S>, vertex: &LightVertex<S>) -> Self {
+        let way = vertex.at.position - joiner.vertex.position();
         let square_m2 = way.length_squared();
         let distance_m = square_m2.sqrt();
         let direction = way / distance_m;
@@ -87,7 +87,7 @@ impl Join {
 
     fn ask<S: Spectrum>(
         &self,
-        joiner: &Joiner<'_>,
+        joiner: &Joiner<'_, S>,
         engine: &Engine<'_, '_, S>,
         who: u32,
         vertex: &LightVertex<S>,
@@ -106,15 +106,16 @@ impl Join {
         let photons = joiner.receiver.photons(*is_narrow, *found_by);
         let to_eye = product(bsdf.survival_pdf_sr(*wo, wi, 1.0) * cos / square_m2, photons / joins);
         let to_light = product(
-            cos * FRAC_1_PI * wi.z.abs() / square_m2,
+            joiner.vertex.survival_pdf_sr(direction, favour(0)) * wi.z.abs() / square_m2,
             weights.numbered(1).towards(bsdf.survival_pdf_sr(wi, *wo, favour(1))) / joins,
         );
         let lx = cos * cos_there / square_m2 / joins * of_connection(to_eye, to_light);
-        let light = *flux_lm * scattered * lx;
+        let light = joiner.vertex.weight(direction) * *flux_lm * scattered * lx;
         let is_something = light.luminance() > 0.0 && light.luminance().is_finite();
         if is_something {
             joiner.receiver.assert_capped("a join", light);
-            let ray = joiner.from.shadow_ray(direction, distance_m, at.facet);
+            let from = joiner.vertex.ray_origin(direction);
+            let ray = from.shadow_ray(direction, distance_m, at.facet);
             shadows.push_polyline(who, light, bounces + 1, RayQuery::NONE, |rays| rays.push(ray));
         }
     }

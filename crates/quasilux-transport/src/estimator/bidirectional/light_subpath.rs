@@ -64,6 +64,7 @@ struct LightSubpath<'p, S> {
 }
 
 /// The way of a subpath since its last vertex.
+#[derive(Clone)]
 pub(super) struct Leg<S> {
     /// What it weighs, having left its last vertex; nothing is known before the first.
     weights: LightWeights,
@@ -89,11 +90,42 @@ pub(super) enum LastVertex {
 
 /// A flight of a subpath, shown to the targets that it may cross.
 pub(super) struct Passing<'s, S> {
+    /// Of its subpath, among those that travel together.
+    pub(super) number: usize,
     pub(super) flight: Flight,
     pub(super) flux_lm: S,
     pub(super) bounces: u32,
     pub(super) leg: &'s Leg<S>,
     photon: &'s Photon,
+}
+
+/// A flight that is kept.
+pub(super) struct Kept<S> {
+    number: usize,
+    flight: Flight,
+    flux_lm: S,
+    bounces: u32,
+    leg: Leg<S>,
+    photon: Photon,
+}
+
+impl<S: Spectrum> Kept<S> {
+    pub(super) fn new(passing: &Passing<'_, S>) -> Self {
+        let &Passing { number, flight, flux_lm, bounces, leg, photon } = passing;
+        Self { number, flight, flux_lm, bounces, leg: leg.clone(), photon: photon.clone() }
+    }
+
+    pub(super) fn passing(&self) -> Passing<'_, S> {
+        let Self { number, flight, flux_lm, bounces, leg, photon } = self;
+        Passing {
+            number: *number,
+            flight: *flight,
+            flux_lm: *flux_lm,
+            bounces: *bounces,
+            leg,
+            photon,
+        }
+    }
 }
 
 /// Vertices of subpaths that were traced together.
@@ -223,8 +255,8 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
     fn passing(&self, at: Option<&Interaction>) -> Passing<'_, S> {
         let length_m = at.map_or(f64::INFINITY, |at| at.distance_m);
         let flight = Flight { from: self.from.position(), direction: self.direction, length_m };
-        let Self { flux_lm, bounces, leg, photon, .. } = self;
-        Passing { flight, flux_lm: *flux_lm, bounces: *bounces, leg, photon }
+        let Self { number, flux_lm, bounces, leg, photon, .. } = self;
+        Passing { number: *number, flight, flux_lm: *flux_lm, bounces: *bounces, leg, photon }
     }
 
     /// What happens where its flight ends; whether it goes on.
@@ -410,6 +442,12 @@ impl<S: Spectrum> Passing<'_, S> {
         matches!(self.leg.class, LightPathClass::Shown(_))
     }
 
+    /// Whether it comes from a narrow surface, with light that eye paths hardly find.
+    pub(super) fn is_hardly_found(&self, engine: &Engine<'_, '_, S>) -> bool {
+        let is_narrow = matches!(self.leg.last, LastVertex::Surface { is_narrow: true, .. });
+        is_narrow && self.found_by(engine) == FoundBy::Photons
+    }
+
     /// Whether it comes straight from a light with an area.
     pub(super) fn is_straight_from_area(&self) -> bool {
         let has_area = matches!(self.photon.kind, LightKind::Emitters | LightKind::Luminaire(_));
@@ -421,25 +459,13 @@ impl<S: Spectrum> Passing<'_, S> {
         self.leg.distance_m + along_m
     }
 
-    /// What its subpath weighs at a target that it crosses there.
+    /// What its subpath weighs where it crosses a place that measures.
     pub(super) fn weights_at(
         &self,
         engine: &Engine<'_, '_, S>,
-        position: DVec3,
-        n: DVec3,
-        along_m: f64,
-        is_cell: bool,
+        arrival: &Arrival,
     ) -> SubpathWeights {
-        let direction = self.flight.direction;
-        let arrival = Arrival {
-            place: Asking { position, side: Some(n), own: None },
-            n,
-            along_m,
-            direction,
-            cos: -n.dot(direction),
-            asks: if is_cell { Asks::AllPointlikes } else { Asks::One },
-        };
-        self.leg.weights_at(engine, self.photon, &arrival).numbered(0)
+        self.leg.weights_at(engine, self.photon, arrival).numbered(0)
     }
 }
 

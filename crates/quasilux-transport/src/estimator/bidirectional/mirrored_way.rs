@@ -7,6 +7,7 @@ use crate::spectrum::Spectrum;
 use crate::world::Interaction;
 
 /// Mirrors that a subpath met one after the other, and nothing else.
+#[derive(Clone)]
 pub(super) struct MirroredWay<S> {
     /// Up to the last of them, in m.
     distance_m: f64,

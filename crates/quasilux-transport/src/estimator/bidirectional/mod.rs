@@ -78,6 +78,7 @@ mod mirrored_way;
 mod nearest_emitter;
 mod partner;
 mod peaks;
+mod pixels;
 mod plan;
 mod progress;
 mod samples;
@@ -87,3 +88,4 @@ mod supremum;
 mod unit;
 
 pub(crate) use estimator::BidirectionalEstimator;
+pub(crate) use pixels::{MOST_PHOTONS, PictureLight, PixelSink, PixelTracer, PixelUnit};

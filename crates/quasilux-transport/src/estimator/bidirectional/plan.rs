@@ -64,8 +64,16 @@ pub(super) fn largest_disc_m2<S: Spectrum>(world: &World<S>) -> f64 {
     PI * radius_m * radius_m
 }
 
-fn largest_radius_m<S: Spectrum>(world: &World<S>) -> f64 {
+pub(super) fn largest_radius_m<S: Spectrum>(world: &World<S>) -> f64 {
     RADIUS_M.min(SHARE_OF_SIZE * world.size_m())
+}
+
+/// The part of a disc of this radius on which photons count that come straight from lights with an
+/// area, of which the nearest is so far away.
+pub(super) fn near_part<S: Spectrum>(world: &World<S>, nearest_m: f64, radius_m: f64) -> f64 {
+    let near_m = (SHARE_OF_DISTANCE * nearest_m).max(world.hair_m());
+    let share = (near_m / radius_m).min(1.0);
+    share * share
 }
 
 /// Between a target and a surface.
@@ -96,6 +104,11 @@ pub(super) struct Receiver {
     /// How many times brighter radiance is than in air, at most: in glass by the square of its
     /// index.
     pub(super) radiance_scale: f64,
+    /// Light subpaths of an index.
+    pub(super) subpaths: u64,
+    /// Those whose photons count that come from narrow surfaces, with light that eye paths hardly
+    /// find.
+    pub(super) photons: u64,
     /// In m^2: a join is made for certain where cosines over squared distance are one over it.
     pub(super) per_sure_m2: f64,
     /// The most in lx that a sample adds to one index (`caps`), for assertions.
@@ -125,10 +138,10 @@ pub(super) fn favour(number: usize) -> f64 {
 /// The light subpath that the eye path of a target with this index is connected to.
 ///
 /// The first digits of coordinates follow the number of a subpath, and those of an eye path the
-/// lowest digits of its index. From one [`SUBPATHS`] indices to the next the pairs are shifted by
+/// lowest digits of its index. From as many indices as there are subpaths to the next the pairs are shifted by
 /// one: so each first part of the eye paths meets all subpaths alike, in as many steps.
-pub(super) fn connected(target: usize, index: u64) -> u64 {
-    (target as u64).wrapping_add(index).wrapping_add(index / SUBPATHS) % SUBPATHS
+pub(super) fn connected(target: usize, index: u64, subpaths: u64) -> u64 {
+    (target as u64).wrapping_add(index).wrapping_add(index / subpaths) % subpaths
 }
 
 /// What rays meet around a point with the normal `n`.
@@ -178,16 +191,16 @@ impl Receiver {
                 let (luminaires, place) = (&context.lights.area_luminaires, from.position());
                 let nearest_m = nearest_luminaire_m(luminaires, place, n);
                 let nearest_m = nearest_m.min(emitting.distance_m(place, n));
-                let near_m = (SHARE_OF_DISTANCE * nearest_m).max(world.hair_m());
-                let share = (near_m / radius_m).min(1.0);
                 Self {
                     target: *target,
                     position: from.position(),
                     n,
                     area_m2,
                     radius_m: Some(radius_m),
-                    near_part: share * share,
+                    near_part: near_part(world, nearest_m, radius_m),
                     radiance_scale,
+                    subpaths: SUBPATHS,
+                    photons: SUBPATHS,
                     per_sure_m2,
                     most_lx: f64::INFINITY,
                 }
@@ -204,6 +217,8 @@ impl Receiver {
                     near_part: 1.0,
                     // A part of it may hang in glass.
                     radiance_scale: most_scale,
+                    subpaths: SUBPATHS,
+                    photons: SUBPATHS,
                     per_sure_m2,
                     most_lx: f64::INFINITY,
                 }
@@ -240,12 +255,18 @@ impl Receiver {
     /// all of them where the last surface is narrow and eye paths hardly find the light past it.
     pub(super) fn photons(&self, is_narrow: bool, found: FoundBy) -> f64 {
         let all = is_narrow && found == FoundBy::Photons;
-        self.area_m2 * if all { SUBPATHS as f64 } else { 1.0 }
+        self.area_m2 * if all { self.photons as f64 } else { 1.0 }
+    }
+
+    /// Photons that are traced for each eye path.
+    pub(super) fn traced(&self, is_narrow: bool, found: FoundBy) -> f64 {
+        let all = is_narrow && found == FoundBy::Photons;
+        (if all { self.photons } else { self.subpaths }) as f64
     }
 
     /// Joins that are made of a light vertex, on average, for each eye path.
     pub(super) fn joins(&self, edge: &JoinEdge) -> f64 {
-        SUBPATHS as f64 * self.join_probability(edge)
+        self.subpaths as f64 * self.join_probability(edge)
     }
 
     /// The chance of a join: by its cosines over squared distance. Narrow surfaces may send more
@@ -292,7 +313,7 @@ mod tests {
     fn eye_paths_that_begin_alike_meet_all_subpaths() {
         for (target, first) in [(0, 0), (5, 1), (1000, 31)] {
             let alike = (0..SUBPATHS).map(|step| first + step * SUBPATHS);
-            let mut met: Vec<u64> = alike.map(|index| connected(target, index)).collect();
+            let mut met: Vec<u64> = alike.map(|index| connected(target, index, SUBPATHS)).collect();
             met.sort_unstable();
             assert!(met.into_iter().eq(0..SUBPATHS), "{target}, {first}");
         }

@@ -35,6 +35,7 @@ impl PhotonFluxes {
 }
 
 /// A photon that has just left its light.
+#[derive(Clone)]
 pub(super) struct Photon {
     pub(super) kind: LightKind,
     pub(super) number: usize,

@@ -5,7 +5,7 @@
 
 use super::counters::{Counters, Crossing};
 use super::engine::Engine;
-use super::eye_path::{EyePaths, SectionSums, Start};
+use super::eye_path::{EyePaths, Sink, Start};
 use super::flux_tally::FluxTally;
 use super::joins::{JoinWork, Joiner};
 use super::light_subpath::LightSubpaths;
@@ -17,6 +17,7 @@ use crate::path::sections::WorkCounts;
 use crate::path::wave::WAVE;
 use crate::spectrum::Spectrum;
 use crate::stats::tally::Quantum;
+use crate::world::vertex::Vertex;
 use quasilux_sampling::{PointSet, Sampler};
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
@@ -34,6 +35,22 @@ pub(super) struct Unit<'t> {
     pub(super) indices: Range<u64>,
     /// In ascending order.
     pub(super) targets: &'t [usize],
+}
+
+/// The sums of all sections, with their unit.
+struct SectionSums<'f> {
+    sums: &'f mut [TargetSums],
+    quantum: Quantum,
+}
+
+impl<S: Spectrum> Sink<S> for SectionSums<'_> {
+    fn add(&mut self, section: usize, bounces: u32, light: S) {
+        self.sums[section].add(bounces, light.luminance(), self.quantum);
+    }
+
+    fn add_merged(&mut self, section: usize, bounces: u32, light: S) {
+        self.sums[section].add_merged(bounces, light.luminance(), self.quantum);
+    }
 }
 
 /// What came of a unit.
@@ -64,15 +81,15 @@ impl Unit<'_> {
             (own..own + SUBPATHS).map(|index| Sampler::new(&points, index))
         });
         let counters = Counters::new(&context.world, &receivers);
+        let found = &mut SectionSums { sums: &mut sums, quantum };
         let light = LightSubpaths::trace(engine, samplers, |passing| {
             counters.cross(engine, &receivers, passing, |crossing| {
                 let Crossing { section, light, bounces } = crossing;
-                sums[section].add_merged(bounces, light.luminance(), quantum);
+                found.add_merged(section, bounces, light);
             });
         });
         let mut work = WorkCounts { rays: light.rays, ..WorkCounts::default() };
         work.endless += light.endless;
-        let found = &mut SectionSums { sums: &mut sums, quantum };
         work.rays += self.join(engine, &receivers, &light, found);
         work += self.gather(engine, &receivers, &light, found);
         let photons = (self.indices.end - self.indices.start) * SUBPATHS;
@@ -96,8 +113,12 @@ impl Unit<'_> {
             let places = (0..).step_by(SUBPATHS as usize);
             for (place, index) in places.zip(self.indices.clone()) {
                 let u = || [0, 1].map(|dimension| points.coordinate(index, dimension));
-                let from = receiver.origin(world, u);
-                let mut joiner = Joiner { receiver, from, next: points.coordinate(index, 2) };
+                let mut joiner = Joiner {
+                    receiver,
+                    vertex: Vertex::sensor(receiver.origin(world, u), receiver.n),
+                    max_bounces: work.shadows.max_bounces,
+                    next: points.coordinate(index, 2),
+                };
                 let numbers = light.numbers_of(place..place + SUBPATHS as usize);
                 joiner.join(engine, section as u32, light, numbers, &mut work);
             }
@@ -132,13 +153,14 @@ impl Unit<'_> {
             let starts = sections.zip(&points).flat_map(|(section, points)| {
                 let target = self.targets[section];
                 (0..).zip(self.indices.clone()).map(move |(place, index)| {
-                    let subpath = place * SUBPATHS + connected(target, index);
+                    let subpath = place * SUBPATHS + connected(target, index, SUBPATHS);
                     Start {
                         section,
                         receiver: receivers[section],
                         light,
                         subpath: subpath as usize,
                         sampler: Sampler::new(points, index),
+                        surface: None,
                     }
                 })
             });

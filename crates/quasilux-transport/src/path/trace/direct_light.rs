@@ -4,8 +4,6 @@
 use super::{Path, PathWork};
 use crate::context::Context;
 use crate::lights::{Asking, EmitterPlace, EmitterPoint, Emitters};
-use crate::path::sketch::{ExpectedLights, MAX_LIGHTS, PixelSketch};
-use crate::photon::virtual_lights::Site;
 use crate::purpose::Purpose;
 use crate::spectrum::Spectrum;
 use crate::world::Interaction;
@@ -13,9 +11,6 @@ use crate::world::vertex::{Surface, Vertex};
 use crate::world::visibility::LightSample;
 use glam::DVec3;
 use quasilux_sampling::Sampler;
-
-/// One in so many of the lights of which something is expected is asked: no path asks two of them.
-const CHECKED: usize = MAX_LIGHTS;
 
 impl<S: Spectrum> Path<'_, S> {
     /// Asks for the light of all kinds of lights on a surface.
@@ -147,10 +142,7 @@ impl<S: Spectrum> Path<'_, S> {
         work: &mut PathWork<S>,
     ) {
         let lights = &context.lights.pointlikes;
-        let pixel = self.pixel.filter(|_| self.bounces_asked == 1 && lights.len() <= MAX_LIGHTS);
-        if let Some(pixel) = pixel {
-            self.sample_expected_pointlikes(context, pixel, vertex, work);
-        } else if !lights.is_empty() {
+        if !lights.is_empty() {
             let choice = Purpose::PointLike { surface: self.bounces_asked };
             let u = match lights.dimensions_of_choice() {
                 0 => [0.0; 2],
@@ -159,39 +151,6 @@ impl<S: Spectrum> Path<'_, S> {
             };
             let light_sample = lights.light_sample(vertex, u, &mut work.choice);
             self.ask(light_sample, vertex, work);
-        }
-    }
-
-    /// Takes the light of all that its pixel is expected to see, and asks for the others. Of one in
-    /// so many it takes the difference to what is expected, which counts so many fold.
-    fn sample_expected_pointlikes(
-        &mut self,
-        context: &Context<'_, S>,
-        pixel: &PixelSketch,
-        vertex: &Vertex<'_, S>,
-        work: &mut PathWork<S>,
-    ) {
-        let lights = &context.lights.pointlikes;
-        let expected = match vertex.only_side() {
-            Some(n) => pixel.expected(&Site { position: vertex.position(), n }),
-            None => ExpectedLights::default(),
-        };
-        let choice = Purpose::PointLike { surface: self.bounces_asked };
-        let u = context.draw(&mut self.sampler, choice, Sampler::next_1d);
-        let checked = (u * CHECKED as f64) as usize;
-        for number in 0..lights.len() {
-            let Some(sample) = lights.light_sample_of(number, vertex) else { continue };
-            let Some(is_seen) = expected.is_seen(number) else {
-                work.shadows.ask(self.number, vertex, &sample);
-                continue;
-            };
-            let mut expected = f64::from(u8::from(is_seen));
-            if number == checked {
-                let light = sample.light * CHECKED as f64;
-                work.shadows.ask(self.number, vertex, &LightSample { light, ..sample });
-                expected *= 1.0 - CHECKED as f64;
-            }
-            self.found.add(self.bounces_asked, sample.light * expected);
         }
     }
 

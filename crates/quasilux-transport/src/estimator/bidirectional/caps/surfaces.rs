@@ -80,8 +80,12 @@ impl<'w, S: Spectrum> Surfaces<'w, S> {
         let corners = receiver.corners();
         let value = JoinBound { surfaces: self, receiver, corners };
         let at_most = supremum(self.world, &self.tree, &self.facets, &value);
-        let scattered_sr = self.peaks.0.iter().map(Peak::largest_sr).fold(0.0, f64::max);
-        at_most.max(scattered_sr / receiver.per_sure_m2)
+        at_most.max(self.most_sr() / receiver.per_sure_m2)
+    }
+
+    /// The most that any of them sends on of a lux, in sr^-1.
+    pub(super) fn most_sr(&self) -> f64 {
+        self.peaks.0.iter().map(Peak::largest_sr).fold(0.0, f64::max)
     }
 
     /// At least the largest of what the lights without extent give, times pi and the scattering

@@ -18,6 +18,9 @@ use quasilux_sampling::choose_weights;
 /// Light vertices that are looked at from an eye vertex.
 const CANDIDATES: usize = 4;
 
+/// Lights without extent that are asked at the surface that a pixel sees.
+const ASKED_AT_ONCE: usize = 8;
+
 /// What is asked at a vertex.
 pub(super) struct EyeVertex<'v, 'w, S> {
     pub(super) vertex: &'v Vertex<'w, S>,
@@ -40,9 +43,39 @@ impl<S: Spectrum> EyePath<'_, S> {
             let per_lm = engine.sources.per_lm(number);
             self.ask(
                 sample.map(|it| eye_vertex.beside_landings(it, per_lm, 1.0)),
-                eye_vertex,
+                eye_vertex.vertex,
                 work,
             );
+        }
+    }
+
+    /// Asks for the light of each light without extent where there are few, else of some, where
+    /// photons take no part.
+    pub(super) fn sample_direct_some_pointlikes(
+        &mut self,
+        engine: &Engine<'_, '_, S>,
+        vertex: &Vertex<'_, S>,
+        work: &mut EyePaths<S>,
+    ) {
+        let pointlikes = &engine.context.lights.pointlikes;
+        if pointlikes.len() <= ASKED_AT_ONCE {
+            for number in 0..pointlikes.len() {
+                let sample = pointlikes.light_sample_of(number, vertex);
+                self.ask(sample, vertex, work);
+            }
+            return;
+        }
+        let u = self.sampler.next_1d();
+        let (share, place) = (1.0 / ASKED_AT_ONCE as f64, Asking::at(vertex));
+        for number in 0..ASKED_AT_ONCE {
+            let u = (number as f64 + u) * share;
+            let sample = match pointlikes.choose(place, u, &mut work.choice) {
+                None => LightSample::without_choice(work.choice.total()),
+                Some(Choice { number, pdf }) => pointlikes
+                    .light_sample_of(number, vertex)
+                    .map(|it| LightSample { light: it.light * (share / pdf), ..it }),
+            };
+            self.ask(sample, vertex, work);
         }
     }
 
@@ -61,12 +94,16 @@ impl<S: Spectrum> EyePath<'_, S> {
         let place = Asking::at(eye_vertex.vertex);
         let Some(Choice { number, pdf }) = pointlikes.choose(place, u, &mut work.choice) else {
             let sample = LightSample::without_choice(work.choice.total());
-            self.ask(sample, eye_vertex, work);
+            self.ask(sample, eye_vertex.vertex, work);
             return;
         };
         let sample = pointlikes.light_sample_of(number, eye_vertex.vertex);
         let per_lm = engine.sources.per_lm(number);
-        self.ask(sample.map(|it| eye_vertex.beside_landings(it, per_lm, pdf)), eye_vertex, work);
+        self.ask(
+            sample.map(|it| eye_vertex.beside_landings(it, per_lm, pdf)),
+            eye_vertex.vertex,
+            work,
+        );
     }
 
     /// Asks for the light of lights without extent in mirrors: of all images, or of one for
@@ -131,7 +168,11 @@ impl<S: Spectrum> EyePath<'_, S> {
             incidence.illuminance_lx,
         );
         let per_lm = engine.sources.of_luminaire_per_lm(number);
-        self.ask(sample.map(|it| eye_vertex.beside_landings(it, per_lm, pdf)), eye_vertex, work);
+        self.ask(
+            sample.map(|it| eye_vertex.beside_landings(it, per_lm, pdf)),
+            eye_vertex.vertex,
+            work,
+        );
     }
 
     fn sample_direct_emitter(
@@ -150,7 +191,7 @@ impl<S: Spectrum> EyePath<'_, S> {
             beside_sr,
             &mut work.choice,
         );
-        self.ask(sample, eye_vertex, work);
+        self.ask(sample, eye_vertex.vertex, work);
     }
 
     /// Asks for the light of area lights as mirrors show them.
@@ -197,7 +238,7 @@ impl<S: Spectrum> EyePath<'_, S> {
             let found = asked.and_then(|DrawnDirection { direction, pdf_sr }| {
                 sample(direction, pdf_sr, outside.luminance_cd_m2(direction), false)
             });
-            self.ask(found, eye_vertex, work);
+            self.ask(found, vertex, work);
         }
         if outside.has_sun() {
             let u = self.sampler.next_2d();
@@ -205,19 +246,14 @@ impl<S: Spectrum> EyePath<'_, S> {
             let found = outside
                 .sample_sun(u)
                 .and_then(|direction| sample(direction, cd_m2 / lx, cd_m2, true));
-            self.ask(found, eye_vertex, work);
+            self.ask(found, vertex, work);
         }
     }
 
-    fn ask(
-        &self,
-        sample: Option<LightSample<S>>,
-        eye_vertex: &EyeVertex<'_, '_, S>,
-        work: &mut EyePaths<S>,
-    ) {
+    fn ask(&self, sample: Option<LightSample<S>>, vertex: &Vertex<'_, S>, work: &mut EyePaths<S>) {
         if let Some(sample) = sample {
             self.receiver.assert_capped("a light that was asked", sample.light);
-            work.shadows.ask(self.number, eye_vertex.vertex, &sample);
+            work.shadows.ask(self.number, vertex, &sample);
         }
     }
 

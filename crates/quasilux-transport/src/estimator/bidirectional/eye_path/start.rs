@@ -1,0 +1,159 @@
+//! How eye paths start: at a target, or at the first surface that a pixel sees, which measures the
+//! light that it sends to the camera as a target measures its illuminance.
+
+use super::asking::EyeVertex;
+use super::{EyePath, EyePaths, EyeWeights, MirroredFrom};
+use crate::bsdf::TransportMode;
+use crate::cutoff::Gain;
+use crate::estimator::bidirectional::engine::Engine;
+use crate::estimator::bidirectional::light_subpath::LightSubpaths;
+use crate::estimator::bidirectional::plan::{Receiver, favour};
+use crate::lights::Asking;
+use crate::path::subpath_weights::SubpathWeights;
+use crate::spectrum::Spectrum;
+use crate::world::Interaction;
+use crate::world::frame::Frame;
+use crate::world::vertex::{Surface, Vertex};
+use glam::DVec3;
+use quasilux_sampling::Sampler;
+use quasilux_sampling::warp::sample_cosine_hemisphere;
+use std::f64::consts::{FRAC_1_PI, PI};
+
+/// Where an eye path starts, and who gets what it finds.
+pub(in crate::estimator::bidirectional) struct Start<'p, S> {
+    /// Number of its sums.
+    pub(in crate::estimator::bidirectional) section: usize,
+    pub(in crate::estimator::bidirectional) receiver: &'p Receiver,
+    pub(in crate::estimator::bidirectional) light: &'p LightSubpaths<S>,
+    /// That of the light subpaths which it is connected to.
+    pub(in crate::estimator::bidirectional) subpath: usize,
+    pub(in crate::estimator::bidirectional) sampler: Sampler<'p>,
+    /// Where a pixel sees it; `None` of targets.
+    pub(in crate::estimator::bidirectional) surface: Option<&'p FirstSurface<S>>,
+}
+
+/// The first surface that scatters on the way from a camera.
+pub(in crate::estimator::bidirectional) struct FirstSurface<S> {
+    pub(in crate::estimator::bidirectional) at: Interaction,
+    /// Unit direction of the ray that met it.
+    pub(in crate::estimator::bidirectional) direction: DVec3,
+    /// Factor from its luminance to what the pixel sees.
+    pub(in crate::estimator::bidirectional) beta: S,
+    /// Mirrors and panes before it.
+    pub(in crate::estimator::bidirectional) bounces: u32,
+    pub(in crate::estimator::bidirectional) gain: Gain,
+}
+
+/// An eye path that has started.
+pub(super) struct Started<'p, S> {
+    pub(super) path: EyePath<'p, S>,
+    /// Whether it goes on.
+    pub(super) goes_on: bool,
+}
+
+impl<'p, S: Spectrum> EyePath<'p, S> {
+    pub(super) fn start(
+        engine: &Engine<'_, '_, S>,
+        number: u32,
+        start: Start<'p, S>,
+        work: &mut EyePaths<S>,
+    ) -> Started<'p, S> {
+        let Start { section, receiver, light, subpath, mut sampler, surface } = start;
+        let world = &engine.context.world;
+        let from = match surface {
+            None => receiver.origin(world, || sampler.next_2d()),
+            Some(FirstSurface { at, .. }) => world.ray_origin(at),
+        };
+        let mut path = Self {
+            number,
+            section,
+            receiver,
+            light,
+            subpath,
+            sampler,
+            from,
+            direction: receiver.n,
+            distance_m: 0.0,
+            beta: surface.map_or(S::white() * PI, |first| first.beta),
+            bounces: surface.map_or(0, |first| first.bounces),
+            vertices: 0,
+            gain: surface.map_or(Gain::NONE, |first| first.gain),
+            weights: EyeWeights::default(),
+            asked_from: None,
+            mirrored: None,
+            bounces_asked: 0,
+        };
+        let goes_on = match surface {
+            None => path.start_at_target(engine, work),
+            Some(first) => path.start_at_surface(engine, first, work),
+        };
+        Started { path, goes_on }
+    }
+
+    fn start_at_target(&mut self, engine: &Engine<'_, '_, S>, work: &mut EyePaths<S>) -> bool {
+        let context = engine.context;
+        let n = self.receiver.n;
+        let local = DVec3::from_array(sample_cosine_hemisphere(self.sampler.next_2d()));
+        let pdf_sr = local.z * FRAC_1_PI;
+        self.direction = Frame::around(n).to_world(local);
+        self.weights = EyeWeights([SubpathWeights::new(1.0 / pdf_sr, local.z / pdf_sr); 2]);
+        let vertex = &Vertex::sensor(self.from, n);
+        self.asked_from = Some(Asking::at(vertex));
+        self.mirrored = MirroredFrom::new(context, vertex, pdf_sr);
+        work.shadows.max_bounces = context.max_bounces.unwrap_or(u32::MAX);
+        if self.receiver.is_cell() {
+            self.sample_direct_all_pointlikes(engine, &self.beside_photons(vertex, false), work);
+        }
+        self.sample_direct_areas(
+            engine,
+            &self.beside_photons(vertex, false),
+            &self.beside_photons(vertex, true),
+            work,
+        );
+        true
+    }
+
+    fn start_at_surface(
+        &mut self,
+        engine: &Engine<'_, '_, S>,
+        first: &FirstSurface<S>,
+        work: &mut EyePaths<S>,
+    ) -> bool {
+        let context = engine.context;
+        let FirstSurface { at, direction, .. } = first;
+        let surface = &Surface::new(&context.world, at, *direction);
+        let &Surface { bsdf, frame, wo, .. } = surface;
+        let vertex = &Vertex::on(&context.world, at, surface, self.beta);
+        self.bounces_asked = self.bounces + 1;
+        work.shadows.max_bounces =
+            context.max_bounces.map_or(u32::MAX, |most| most.saturating_sub(self.bounces_asked));
+        // Photons of lights that have no extent, and of their images, do not count here.
+        let alone = &EyeVertex { vertex, weights: EyeWeights::default(), number: 0 };
+        self.sample_direct_some_pointlikes(engine, vertex, work);
+        self.sample_direct_images(engine, alone, work);
+        self.sample_direct_areas(
+            engine,
+            &self.beside_photons(vertex, false),
+            &self.beside_photons(vertex, true),
+            work,
+        );
+        let next = bsdf.sample(wo, at.front, TransportMode::Radiance, &mut self.sampler);
+        let Some(next) = next else { return false };
+        let pdf_sr = bsdf.survival_pdf_sr(wo, next.wi, favour(0));
+        let cos = next.wi.z.abs();
+        self.weights = EyeWeights([SubpathWeights::new(1.0 / pdf_sr, cos / pdf_sr); 2]);
+        self.asked_from = Some(Asking::at(vertex));
+        self.mirrored = MirroredFrom::new(context, vertex, pdf_sr);
+        self.go_on(engine, at, &frame, &next, favour(0))
+    }
+
+    /// Where it measures, with the photons that come straight from lights there.
+    fn beside_photons<'v, 'w>(
+        &self,
+        vertex: &'v Vertex<'w, S>,
+        is_of_area: bool,
+    ) -> EyeVertex<'v, 'w, S> {
+        let photons = self.receiver.straight_m2(is_of_area);
+        EyeVertex { vertex, number: 0, weights: EyeWeights([SubpathWeights::new(photons, 0.0); 2]) }
+    }
+}

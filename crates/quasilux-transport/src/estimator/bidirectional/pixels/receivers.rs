@@ -1,0 +1,100 @@
+//! What surfaces that pixels see take: how photons are counted around them, and joined to them.
+
+use super::camera_paths::Seen;
+use super::light::SUBPATHS;
+use super::{DVec3, PixelTracer, Spectrum, World};
+use crate::estimator::bidirectional::asked_luminaires::nearest_luminaire_m;
+use crate::estimator::bidirectional::nearest_emitter::EmittingFacets;
+use crate::estimator::bidirectional::plan::{
+    Receiver, largest_disc_m2, largest_radius_m, near_part,
+};
+use crate::path::sections::WorkCounts;
+use crate::stats::targets::Target;
+use crate::world::Interaction;
+use quasilux_bvh::Hit;
+use std::f64::consts::{PI, TAU};
+
+/// Directions in which walls are looked for in the plane of a disc.
+const LOOKS: u32 = 16;
+
+/// A place in the open, where so many photons of an index count that come from narrow surfaces; its
+/// rate of joins holds until pilots know more.
+pub(super) fn largest_receiver<S: Spectrum>(world: &World<S>, photons: Option<u64>) -> Receiver {
+    let all_m2: f64 = world.facets.iter().map(|facet| facet.area_m2()).sum();
+    Receiver {
+        target: Target::Point { position: DVec3::ZERO, normal: DVec3::Z },
+        position: DVec3::ZERO,
+        n: DVec3::Z,
+        area_m2: photons.map_or(0.0, |_| largest_disc_m2(world)),
+        radius_m: Some(photons.map_or(0.0, |_| largest_radius_m(world))),
+        near_part: 1.0,
+        radiance_scale: 1.0,
+        subpaths: SUBPATHS,
+        photons: photons.unwrap_or(SUBPATHS),
+        per_sure_m2: 0.5 * all_m2.max(f64::MIN_POSITIVE) / TAU,
+        most_lx: f64::INFINITY,
+    }
+}
+
+/// What a path sees, and what that takes.
+pub(super) struct Place<'p, S> {
+    pub(super) seen: Seen<'p, S>,
+    pub(super) receiver: Receiver,
+}
+
+impl<S: Spectrum> PixelTracer<'_, S> {
+    /// Surfaces that paths see, with what they take.
+    pub(super) fn places<'p>(
+        &self,
+        per_sure_m2: f64,
+        seen: Vec<Seen<'p, S>>,
+        work: &mut WorkCounts,
+    ) -> Vec<Place<'p, S>> {
+        let world = &self.engine.context.world;
+        let place = |seen: Seen<'p, S>| {
+            let at = &seen.surface.at;
+            let position = world.ray_origin(at).position();
+            let target = Target::Point { position, normal: at.n };
+            let receiver = Receiver { target, position, n: at.n, per_sure_m2, ..self.open.clone() };
+            Place { seen, receiver }
+        };
+        let mut places: Vec<Place<'p, S>> = seen.into_iter().map(place).collect();
+        if self.merges {
+            self.shrink_discs(&mut places, work);
+        }
+        places
+    }
+
+    /// Discs end at walls, and are smaller for light straight from lights with an area near by.
+    fn shrink_discs(&self, places: &mut [Place<'_, S>], work: &mut WorkCounts) {
+        let context = self.engine.context;
+        let world = &context.world;
+        let queries = places.iter().flat_map(|place| {
+            let at = &place.seen.surface.at;
+            let across = at.n.any_orthonormal_vector();
+            let beside = at.n.cross(across);
+            let from = world.ray_origin(at);
+            (0..LOOKS).map(move |look| {
+                let (sin, cos) = libm::sincos(TAU * f64::from(look) / f64::from(LOOKS));
+                from.query(across * cos + beside * sin)
+            })
+        });
+        let queries: Vec<_> = queries.collect();
+        let (mut hits, mut met) = (Vec::<Option<Hit>>::new(), Vec::<Option<Interaction>>::new());
+        world.trace_all(&queries, &mut hits, &mut met);
+        work.rays += queries.len() as u64;
+        let emitting = EmittingFacets::new(world);
+        let luminaires = &context.lights.area_luminaires;
+        for (Place { receiver, .. }, met) in places.iter_mut().zip(met.chunks_exact(LOOKS as usize))
+        {
+            let distances_m = met.iter().flatten().map(|at| at.distance_m);
+            let free_m = distances_m.fold(f64::INFINITY, f64::min);
+            let radius_m = largest_radius_m(world).min(free_m).max(world.hair_m());
+            let nearest_m = nearest_luminaire_m(luminaires, receiver.position, receiver.n)
+                .min(emitting.distance_m(receiver.position, receiver.n));
+            receiver.radius_m = Some(radius_m);
+            receiver.area_m2 = PI * radius_m * radius_m;
+            receiver.near_part = near_part(world, nearest_m, radius_m);
+        }
+    }
+}
