@@ -138,8 +138,8 @@ pub(super) fn favour(number: usize) -> f64 {
 /// The light subpath that the eye path of a target with this index is connected to.
 ///
 /// The first digits of coordinates follow the number of a subpath, and those of an eye path the
-/// lowest digits of its index. From as many indices as there are subpaths to the next the pairs are shifted by
-/// one: so each first part of the eye paths meets all subpaths alike, in as many steps.
+/// lowest digits of its index. From as many indices as there are subpaths to the next the pairs are
+/// shifted by one: so each first part of the eye paths meets all subpaths alike, in as many steps.
 pub(super) fn connected(target: usize, index: u64, subpaths: u64) -> u64 {
     (target as u64).wrapping_add(index).wrapping_add(index / subpaths) % subpaths
 }
