@@ -4,7 +4,7 @@
 //! What is only known when photons have landed is counted as the most that it may be: maps as if
 //! every landing met an element of its own, cells of surveys as if all were there.
 
-use crate::estimator::bidirectional::MOST_PHOTONS;
+use crate::estimator::bidirectional::MAX_PHOTONS;
 use crate::importance::{MAX_NODES, Node};
 use crate::lights::{coarse_tables_bytes, tables_bytes};
 use crate::path::sections::PathSums;
@@ -162,7 +162,7 @@ fn picture_photons_bytes(scene: &Scene, settings: &Settings) -> u64 {
         return 0;
     }
     let replicates = settings.effective_replicates().into();
-    product([replicates, INDICES, MOST_PHOTONS, PHOTON_BYTES])
+    product([replicates, INDICES, MAX_PHOTONS, PHOTON_BYTES])
 }
 
 fn product<const N: usize>(of: [u64; N]) -> u64 {

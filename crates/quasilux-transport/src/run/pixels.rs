@@ -33,7 +33,7 @@ const BLOCK: usize = 16;
 /// Blocks that are traced together, so that all threads have work, and that the same light serves
 /// before it is traced again.
 const TOGETHER: usize = 24;
-const SERVED: usize = 240;
+const REGION: usize = 240;
 /// Indices between two words to the observer: half a second of a processor with two cores.
 pub(super) const INDICES: u64 = 2;
 /// A sample is one block in so many of each row, further right by so many from row to row.
@@ -219,8 +219,8 @@ impl<'a, S: Spectrum> Darkroom<'a, S> {
         let mut pixels = vec![Pixel::default(); self.pixels];
         let mut sums = vec![PixelSums::default(); self.replicates as usize];
         let mut done = 0.0;
-        for served in blocks.chunks(SERVED) {
-            let mut trays: Vec<Tray> = served.par_iter().map(|it| self.tray(*it)).collect();
+        for region in blocks.chunks(REGION) {
+            let mut trays: Vec<Tray> = region.par_iter().map(|it| self.tray(*it)).collect();
             let mut indices = 0..INDICES.min(samples);
             while !indices.is_empty() {
                 let light = self.light(indices.clone(), work);

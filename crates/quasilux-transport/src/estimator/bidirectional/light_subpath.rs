@@ -100,7 +100,7 @@ pub(super) struct Passing<'s, S> {
 }
 
 /// A flight that is kept.
-pub(super) struct Kept<S> {
+pub(super) struct KeptFlight<S> {
     number: usize,
     flight: Flight,
     flux_lm: S,
@@ -109,7 +109,7 @@ pub(super) struct Kept<S> {
     photon: Photon,
 }
 
-impl<S: Spectrum> Kept<S> {
+impl<S: Spectrum> KeptFlight<S> {
     pub(super) fn new(passing: &Passing<'_, S>) -> Self {
         let &Passing { number, flight, flux_lm, bounces, leg, photon } = passing;
         Self { number, flight, flux_lm, bounces, leg: leg.clone(), photon: photon.clone() }

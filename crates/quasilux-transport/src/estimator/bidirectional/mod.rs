@@ -88,4 +88,4 @@ mod supremum;
 mod unit;
 
 pub(crate) use estimator::BidirectionalEstimator;
-pub(crate) use pixels::{MOST_PHOTONS, PictureLight, PixelSink, PixelTracer, PixelUnit};
+pub(crate) use pixels::{MAX_PHOTONS, PictureLight, PixelSink, PixelTracer, PixelUnit};

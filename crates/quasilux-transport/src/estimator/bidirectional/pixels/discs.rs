@@ -5,9 +5,9 @@ use crate::estimator::bidirectional::boxes::BoxTree;
 use crate::estimator::bidirectional::counters::share;
 use crate::estimator::bidirectional::engine::Engine;
 use crate::estimator::bidirectional::eye_path::Sink;
-use crate::estimator::bidirectional::light_subpath::{Kept, Passing};
+use crate::estimator::bidirectional::light_subpath::{KeptFlight, Passing};
 use crate::estimator::bidirectional::pixels::camera_paths::Seen;
-use crate::estimator::bidirectional::pixels::receivers::Place;
+use crate::estimator::bidirectional::pixels::receivers::SeenPlace;
 use crate::estimator::bidirectional::plan::Receiver;
 use crate::world::vertex::{Surface, Vertex};
 
@@ -27,14 +27,14 @@ struct Disc<'s, 'p, S> {
 impl<'s, 'p, S: Spectrum> Discs<'s, 'p, S> {
     pub(super) fn new(
         engine: &Engine<'_, '_, S>,
-        places: impl Iterator<Item = &'s Place<'p, S>>,
+        places: impl Iterator<Item = &'s SeenPlace<'p, S>>,
     ) -> Self
     where
         'p: 's,
     {
         let world = &engine.context.world;
         let (mut discs, mut corners) = (Vec::new(), Vec::new());
-        for Place { seen, receiver } in places {
+        for SeenPlace { seen, receiver } in places {
             let at = &seen.surface.at;
             let mut add = |receiver: Receiver| {
                 corners.push(receiver.corners_of_disc(world));
@@ -53,7 +53,7 @@ impl<'s, 'p, S: Spectrum> Discs<'s, 'p, S> {
     pub(super) fn cross_all(
         &self,
         engine: &Engine<'_, '_, S>,
-        flights: &[Kept<S>],
+        flights: &[KeptFlight<S>],
         found: &mut dyn Sink<S>,
     ) {
         flights.iter().for_each(|kept| self.cross(engine, &kept.passing(), found));

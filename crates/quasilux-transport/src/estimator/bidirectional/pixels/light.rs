@@ -3,7 +3,7 @@
 
 use super::{PixelTracer, Spectrum};
 use crate::context::Stream;
-use crate::estimator::bidirectional::light_subpath::{Kept, LightSubpaths};
+use crate::estimator::bidirectional::light_subpath::{KeptFlight, LightSubpaths};
 use crate::estimator::bidirectional::partner::partner;
 use crate::path::sections::WorkCounts;
 use quasilux_sampling::Sampler;
@@ -14,14 +14,14 @@ use std::ops::Range;
 pub(super) const SUBPATHS: u64 = 128;
 /// Photons of an index of which those count that come from narrow surfaces: by the number of the
 /// pixels that they serve, so that they take a part of the time.
-const FEWEST_PHOTONS: u64 = 1 << 11;
-pub(crate) const MOST_PHOTONS: u64 = 1 << 13;
+const MIN_PHOTONS: u64 = 1 << 11;
+pub(crate) const MAX_PHOTONS: u64 = 1 << 13;
 const PIXELS_A_PHOTON: usize = 16;
 
 /// Those of a picture of so many pixels.
 pub(super) fn photons(pixels: usize) -> u64 {
     let wanted = (pixels / PIXELS_A_PHOTON).next_power_of_two() as u64;
-    wanted.clamp(FEWEST_PHOTONS, MOST_PHOTONS)
+    wanted.clamp(MIN_PHOTONS, MAX_PHOTONS)
 }
 
 /// Of some indices in one replicate.
@@ -29,7 +29,7 @@ pub(crate) struct PictureLight<S> {
     pub(super) indices: Range<u64>,
     pub(super) subpaths: LightSubpaths<S>,
     /// Of each index, the flights that count where they cross the discs of pixels.
-    pub(super) flights: Vec<Vec<Kept<S>>>,
+    pub(super) flights: Vec<Vec<KeptFlight<S>>>,
     pub(crate) work: WorkCounts,
 }
 
@@ -37,7 +37,7 @@ impl<S: Spectrum> PixelTracer<'_, S> {
     /// Traces the light of some indices.
     pub(crate) fn light(&self, replicate: u32, indices: Range<u64>) -> PictureLight<S> {
         let Self { engine, merges, .. } = self;
-        let mut flights: Vec<Vec<Kept<S>>> = indices.clone().map(|_| Vec::new()).collect();
+        let mut flights: Vec<Vec<KeptFlight<S>>> = indices.clone().map(|_| Vec::new()).collect();
         let points = engine.context.points(replicate, Stream::PictureSubpaths);
         let samplers = indices.clone().flat_map(|index| {
             let own = partner(index) * SUBPATHS;
@@ -45,7 +45,7 @@ impl<S: Spectrum> PixelTracer<'_, S> {
         });
         let subpaths = LightSubpaths::trace(engine, samplers, |passing| {
             if *merges && !passing.is_computed_at_points() && !passing.is_hardly_found(engine) {
-                flights[passing.number / SUBPATHS as usize].push(Kept::new(passing));
+                flights[passing.number / SUBPATHS as usize].push(KeptFlight::new(passing));
             }
         });
         let mut work = WorkCounts { rays: subpaths.rays, ..WorkCounts::default() };
@@ -57,7 +57,7 @@ impl<S: Spectrum> PixelTracer<'_, S> {
             let samplers = numbers.map(|index| Sampler::new(&points, index));
             let photons = LightSubpaths::trace(engine, samplers, |passing| {
                 if !passing.is_computed_at_points() && passing.is_hardly_found(engine) {
-                    flights[passing.number / each as usize].push(Kept::new(passing));
+                    flights[passing.number / each as usize].push(KeptFlight::new(passing));
                 }
             });
             work.rays += photons.rays;

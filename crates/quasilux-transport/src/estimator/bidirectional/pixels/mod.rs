@@ -30,7 +30,7 @@ use glam::DVec3;
 use light::photons;
 use receivers::largest_receiver;
 
-pub(crate) use light::{MOST_PHOTONS, PictureLight};
+pub(crate) use light::{MAX_PHOTONS, PictureLight};
 pub(crate) use unit::PixelUnit;
 
 /// Traces pixels.

@@ -37,7 +37,7 @@ pub(super) fn largest_receiver<S: Spectrum>(world: &World<S>, photons: Option<u6
 }
 
 /// What a path sees, and what that takes.
-pub(super) struct Place<'p, S> {
+pub(super) struct SeenPlace<'p, S> {
     pub(super) seen: Seen<'p, S>,
     pub(super) receiver: Receiver,
 }
@@ -49,16 +49,16 @@ impl<S: Spectrum> PixelTracer<'_, S> {
         per_sure_m2: f64,
         seen: Vec<Seen<'p, S>>,
         work: &mut WorkCounts,
-    ) -> Vec<Place<'p, S>> {
+    ) -> Vec<SeenPlace<'p, S>> {
         let world = &self.engine.context.world;
         let place = |seen: Seen<'p, S>| {
             let at = &seen.surface.at;
             let position = world.ray_origin(at).position();
             let target = Target::Point { position, normal: at.n };
             let receiver = Receiver { target, position, n: at.n, per_sure_m2, ..self.open.clone() };
-            Place { seen, receiver }
+            SeenPlace { seen, receiver }
         };
-        let mut places: Vec<Place<'p, S>> = seen.into_iter().map(place).collect();
+        let mut places: Vec<SeenPlace<'p, S>> = seen.into_iter().map(place).collect();
         if self.merges {
             self.shrink_discs(&mut places, work);
         }
@@ -66,7 +66,7 @@ impl<S: Spectrum> PixelTracer<'_, S> {
     }
 
     /// Discs end at walls, and are smaller for light straight from lights with an area near by.
-    fn shrink_discs(&self, places: &mut [Place<'_, S>], work: &mut WorkCounts) {
+    fn shrink_discs(&self, places: &mut [SeenPlace<'_, S>], work: &mut WorkCounts) {
         let context = self.engine.context;
         let world = &context.world;
         let queries = places.iter().flat_map(|place| {
@@ -85,7 +85,8 @@ impl<S: Spectrum> PixelTracer<'_, S> {
         work.rays += queries.len() as u64;
         let emitting = EmittingFacets::new(world);
         let luminaires = &context.lights.area_luminaires;
-        for (Place { receiver, .. }, met) in places.iter_mut().zip(met.chunks_exact(LOOKS as usize))
+        for (SeenPlace { receiver, .. }, met) in
+            places.iter_mut().zip(met.chunks_exact(LOOKS as usize))
         {
             let distances_m = met.iter().flatten().map(|at| at.distance_m);
             let free_m = distances_m.fold(f64::INFINITY, f64::min);

@@ -3,7 +3,7 @@
 use super::camera_paths::CameraPath;
 use super::discs::Discs;
 use super::light::{PictureLight, SUBPATHS};
-use super::receivers::Place;
+use super::receivers::SeenPlace;
 use super::{DVec3, PixelSink, PixelTracer, Spectrum, World};
 use crate::context::Stream;
 use crate::estimator::bidirectional::eye_path::{EyePaths, Sink, Start};
@@ -90,7 +90,7 @@ impl<S: Spectrum> PixelTracer<'_, S> {
         let starts = unit.camera_paths(&context.world, &points);
         let seen = CameraPath::trace_all(&self.engine, starts, &mut found, &mut work);
         let places = self.places(unit.per_sure_m2, seen, &mut work);
-        for Place { seen, receiver } in &places {
+        for SeenPlace { seen, receiver } in &places {
             found.arrive(seen.section, receiver.area_m2);
         }
         if self.merges {
@@ -108,13 +108,13 @@ impl<S: Spectrum> PixelTracer<'_, S> {
     fn join(
         &self,
         unit: &PixelUnit<'_, S>,
-        places: &[Place<'_, S>],
+        places: &[SeenPlace<'_, S>],
         found: &mut dyn Sink<S>,
     ) -> u64 {
         let context = self.engine.context;
         let world = &context.world;
         let mut work = JoinWork::default();
-        for (number, Place { seen, receiver }) in places.iter().enumerate() {
+        for (number, SeenPlace { seen, receiver }) in places.iter().enumerate() {
             let first = &seen.surface;
             let left = context.max_bounces.map_or(u32::MAX, |most| most - first.bounces - 1);
             let surface = &Surface::new(world, &first.at, first.direction);
@@ -143,12 +143,12 @@ impl<S: Spectrum> PixelTracer<'_, S> {
     fn gather(
         &self,
         unit: &PixelUnit<'_, S>,
-        places: &[Place<'_, S>],
+        places: &[SeenPlace<'_, S>],
         found: &mut dyn Sink<S>,
     ) -> WorkCounts {
         let mut paths = EyePaths::default();
         for places in places.chunks(WAVE as usize) {
-            let starts = places.iter().map(|Place { seen, receiver }| {
+            let starts = places.iter().map(|SeenPlace { seen, receiver }| {
                 let place = seen.index - unit.light.indices.start;
                 let pixel = unit.pixels[seen.section];
                 Start {
