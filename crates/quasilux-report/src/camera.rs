@@ -30,7 +30,7 @@ pub struct CameraReport {
     pub disc_radius_m: Option<f64>,
     /// Half-width of the interval of a pixel in cd/m2, mean over all that have one.
     pub mean_half_width_cd_m2: Option<f64>,
-    /// That over the mean luminance of the picture; `None` where most pixels have no interval.
+    /// [`quasilux_transport::CameraEstimates::relative_half_width`].
     pub relative_half_width: Option<f64>,
     /// What was wanted of it; `None` where a number of paths was.
     pub rel_tol: Option<f64>,

@@ -67,7 +67,7 @@ mod tests {
             "disc_radius_m": 0.1,
             "maximum_luminance_cd_m2": 20.0,
             "mean_half_width_cd_m2": 0.5,
-            "relative_half_width": 0.0625,
+            "relative_half_width": (0.75 * 0.0625_f64 * 0.0625 + 0.25 * 0.025 * 0.025).sqrt(),
             "tolerance_reached": true,
         });
         assert_eq!(document["cameras"], serde_json::json!([camera]));

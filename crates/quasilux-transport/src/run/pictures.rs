@@ -1,11 +1,12 @@
 //! Pictures, from their first pass to their last.
 //!
 //! A picture comes after the sensors, in passes with more and more paths a pixel, each from scratch
-//! (`run/pixels.rs`). It is done when the half-width of a pixel, on average, is the wanted share of
-//! its mean luminance, or when it has the wanted number of paths; only complete passes are looked
-//! at. The number of paths of a pass follows from the half-widths of the one before, that of the
-//! first from a sample of the picture's blocks, so most of the work is in the last. When the
-//! observer stops a pass, the one before is the picture; before the first there is none.
+//! (`run/pixels.rs`). It is done when it is known well enough
+//! ([`CameraEstimates::relative_half_width`]), or when it has the wanted number of paths; only
+//! complete passes are looked at. The number of paths of a pass follows from the half-widths of the
+//! one before, that of the first from a sample of the picture's blocks, so most of the work is in
+//! the last. When the observer stops a pass, the one before is the picture; before the first there
+//! is none.
 
 use crate::context::Context;
 use crate::cutoff;

@@ -44,21 +44,27 @@ pub struct Pixel {
 }
 
 impl CameraEstimates {
-    /// Half the width of the interval of a pixel, mean over all pixels that have one, over the mean
-    /// luminance of the picture; `None` where most pixels have none, or nothing is known.
+    /// Half the width of the interval of a pixel over its luminance, or over the mean luminance of
+    /// the picture where that is more: the root of the mean square over all pixels that have one,
+    /// so that a few bright spots of which little is known count. `None` where most pixels have
+    /// none, or nothing is known.
     #[must_use]
     pub fn relative_half_width(&self) -> Option<f64> {
-        let half_widths = || self.pixels.iter().filter_map(|pixel| pixel.half_width_cd_m2);
-        let known = half_widths().count();
+        let replicates = self.replicate_mean_cd_m2.len() as f64;
+        let mean_cd_m2 = self.replicate_mean_cd_m2.iter().sum::<f64>() / replicates;
+        let share = |pixel: &Pixel| {
+            let half_width = f64::from(pixel.half_width_cd_m2?);
+            let luminance_cd_m2 = mean_cd_m2.max(pixel.luminance_cd_m2.into());
+            // Black all over, and known to be so.
+            Some(if half_width == 0.0 { 0.0 } else { half_width / luminance_cd_m2 })
+        };
+        let shares = || self.pixels.iter().filter_map(share);
+        let known = shares().count();
         if known == 0 || 2 * known < self.pixels.len() {
             return None;
         }
-        let mean = half_widths().map(f64::from).sum::<f64>() / known as f64;
-        let replicates = self.replicate_mean_cd_m2.len() as f64;
-        let luminance_cd_m2 = self.replicate_mean_cd_m2.iter().sum::<f64>() / replicates;
-        // Black all over, and known to be so.
-        let share = if mean == 0.0 { 0.0 } else { mean / luminance_cd_m2 };
-        Some(share).filter(|share| share.is_finite() && *share >= 0.0)
+        let squares: f64 = shares().map(|share| share * share).sum();
+        Some((squares / known as f64).sqrt()).filter(|share| share.is_finite())
     }
 }
 
@@ -85,14 +91,25 @@ mod tests {
         }
     }
 
+    /// The first of two pixels by the picture's mean of 10 cd/m2, the brighter one by its own.
     #[test]
-    fn half_widths_are_told_by_the_mean_of_the_picture() {
-        let known = picture(&[(10.0, Some(0.25)), (10.0, Some(0.75))]);
-        assert_eq!(known.relative_half_width(), Some(0.05));
+    fn half_widths_are_told_by_the_brighter_of_pixel_and_picture() {
+        let known = picture(&[(5.0, Some(0.3)), (20.0, Some(0.8))]);
+        let share = (0.5 * (0.03_f64 * 0.03 + 0.04 * 0.04)).sqrt();
+        assert!((known.relative_half_width().unwrap() - share).abs() < 1e-6);
         let mostly = picture(&[(10.0, Some(0.5)), (0.0, None)]);
         assert_eq!(mostly.relative_half_width(), Some(0.05));
         let hardly = picture(&[(10.0, Some(0.5)), (0.0, None), (0.0, None)]);
         assert_eq!(hardly.relative_half_width(), None);
         assert_eq!(picture(&[]).relative_half_width(), None);
+        assert_eq!(picture(&[(10.0, Some(f32::NAN))]).relative_half_width(), None);
+    }
+
+    /// One pixel in a thousand that a photon or a path made bright keeps a picture from being done.
+    #[test]
+    fn a_bright_spot_counts() {
+        let mut pixels = [(10.0, Some(0.2)); 1000];
+        pixels[7] = (400.0, Some(850.0));
+        assert!(picture(&pixels).relative_half_width() > Some(0.05));
     }
 }
