@@ -294,7 +294,7 @@ impl Verdict {
         let widest = report.cameras.iter().filter_map(|camera| camera.rel_tol).reduce(f64::max);
         let text = match widest {
             Some(share) => {
-                format!("pixels known to {} % of the picture's mean", brief(100.0 * share, 4))
+                format!("pictures known to {} %", brief(100.0 * share, 4))
             }
             None => "every picture has all its paths".into(),
         };
@@ -382,7 +382,7 @@ mod tests {
         let text = table(&report, Style::Plain);
         let lines: Vec<&str> = text.lines().collect();
         assert!(lines[0].starts_with("camera   pixels    samples   mean"), "{text}");
-        let wanted = "view     40 x 30   16        8.000 ± 0 cd/m²   8 cd/m²   ± 0.5 cd/m² (6.2 %)";
+        let wanted = "view     40 x 30   16        8.000 ± 0 cd/m²   8 cd/m²   ± 0.5 cd/m² (5.6 %)";
         assert_eq!(lines[1], wanted, "{text}");
         assert!(text.contains("every picture has all its paths"), "{text}");
         assert!(text.contains("16 replicates of 16 paths a pixel"), "{text}");
@@ -391,7 +391,7 @@ mod tests {
         }
         report.cameras[0].rel_tol = Some(0.0725);
         let text = table(&report, Style::Plain);
-        assert!(text.contains("pixels known to 7.25 % of the picture's mean"), "{text}");
+        assert!(text.contains("pictures known to 7.25 %"), "{text}");
         report.cameras[0].is_done = false;
         let text = table(&report, Style::Plain);
         assert!(text.contains("1 of 1 picture stopped before the end"), "{text}");

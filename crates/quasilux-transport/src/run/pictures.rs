@@ -166,8 +166,8 @@ impl Wish {
         let name = &camera.name;
         let samples = figures.samples;
         let known = match figures.relative_half_width() {
-            Some(known) => format!("pixels are known to {:.2} % on average", 100.0 * known),
-            None => "little is known of its pixels".to_owned(),
+            Some(known) => format!("it is known to {:.2} %", 100.0 * known),
+            None => "little is known of it".to_owned(),
         };
         match self.rel_tol {
             _ if figures.is_done => None,

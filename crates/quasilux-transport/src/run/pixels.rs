@@ -30,9 +30,10 @@ use std::sync::Arc;
 
 /// Pixels along the edge of a block.
 const BLOCK: usize = 16;
-/// Blocks that are traced together, so that all threads have work, and that the same light serves
-/// before it is traced again.
+/// Blocks that are traced together at least, and for each thread, so that all have work; and those
+/// that the same light serves before it is traced again.
 const TOGETHER: usize = 24;
+const OF_A_THREAD: usize = 2;
 const REGION: usize = 240;
 /// Indices between two words to the observer: half a second of a processor with two cores.
 pub(super) const INDICES: u64 = 2;
@@ -92,8 +93,8 @@ struct Tray {
     places: Vec<usize>,
     /// Of pixel p in replicate r at `p * replicates + r`.
     sums: Vec<PixelSums>,
-    /// Of each pixel, the smallest disc that photons count on, in m^2.
-    least_disc_m2: Vec<f64>,
+    /// Of each pixel, the smallest disc that photons count on, in m^2; `None` where nothing is seen.
+    least_disc_m2: Vec<Option<f64>>,
     /// How often light vertices are joined to what it sees.
     per_sure_m2: f64,
 }
@@ -133,7 +134,7 @@ impl<S: Spectrum> PixelSink<S> for Developer<'_> {
     fn arrive(&mut self, pixel: usize, disc_m2: f64) {
         self.tray.sums[pixel * self.replicates + self.replicate].reflected += 1;
         let least_m2 = &mut self.tray.least_disc_m2[pixel];
-        *least_m2 = least_m2.min(disc_m2);
+        *least_m2 = Some(least_m2.map_or(disc_m2, |least_m2| least_m2.min(disc_m2)));
     }
 }
 
@@ -218,15 +219,16 @@ impl<'a, S: Spectrum> Darkroom<'a, S> {
         let blocks = self.blocks(part);
         let mut pixels = vec![Pixel::default(); self.pixels];
         let mut sums = vec![PixelSums::default(); self.replicates as usize];
+        let together = TOGETHER.max(OF_A_THREAD * rayon::current_num_threads());
         let mut done = 0.0;
         for region in blocks.chunks(REGION) {
             let mut trays: Vec<Tray> = region.par_iter().map(|it| self.tray(*it)).collect();
             let mut indices = 0..INDICES.min(samples);
             while !indices.is_empty() {
                 let light = self.light(indices.clone(), work);
-                for together in trays.chunks_mut(TOGETHER) {
-                    done += (indices.end - indices.start) as f64 * together.len() as f64;
-                    let cost = self.trace(together, &light, indices.clone(), samples);
+                for trays in trays.chunks_mut(together) {
+                    done += (indices.end - indices.start) as f64 * trays.len() as f64;
+                    let cost = self.trace(trays, &light, indices.clone(), samples);
                     let (paths, rays) = (cost.paths, cost.rays);
                     *work += cost;
                     let all = samples as f64 * blocks.len() as f64;
@@ -241,7 +243,7 @@ impl<'a, S: Spectrum> Darkroom<'a, S> {
                 for (own, (place, disc_m2)) in own.zip(tray.places.iter().zip(&tray.least_disc_m2))
                 {
                     sums.iter_mut().zip(own).for_each(|(sum, own)| sum.merge(*own));
-                    pixels[*place] = self.pixel(own, samples, *disc_m2);
+                    pixels[*place] = self.pixel(own, samples, disc_m2.unwrap_or(0.0));
                 }
             }
         }
@@ -318,7 +320,7 @@ impl<'a, S: Spectrum> Darkroom<'a, S> {
         Tray {
             places,
             sums: vec![PixelSums::default(); count * self.replicates as usize],
-            least_disc_m2: vec![f64::INFINITY; count],
+            least_disc_m2: vec![None; count],
             per_sure_m2,
         }
     }

@@ -1,10 +1,12 @@
 //! Rooms beside brighter rooms: light through openings, and lamps that walls hide.
 
+use crate::cameras::camera;
 use crate::images::add_panel;
 use crate::scenes::{diffuse, point_light, points, room};
 use glam::DVec3;
-use quasilux_scene::Scene;
-use quasilux_transport::{Estimates, EstimatorKind, Settings, simulate};
+use quasilux_scene::{Camera, Scene};
+use quasilux_transport::{Estimates, EstimatorKind, Pixel, Settings, simulate};
+use std::f64::consts::PI;
 
 /// Two rooms together, and where the wall between them stands.
 const SIZE: DVec3 = DVec3::new(6.2, 3.0, 2.7);
@@ -114,4 +116,30 @@ fn light_through_a_hole_is_found() {
         );
         assert!(a < 0.2 * found.value);
     }
+}
+
+/// Of what a few paths of a pixel find of a keyhole's light most is too little; with the bound on
+/// unseen light it is not.
+#[test]
+fn pixels_may_miss_the_light_of_a_keyhole_and_say_so() {
+    let (from, on_wall) = (DVec3::new(2.5, 1.6, 1.3), DVec3::new(0.0, 1.6, 1.3));
+    let mut scene = keyhole();
+    scene.sensors = vec![points("wall", &[(on_wall, DVec3::X)])];
+    let lit = run(&scene, EstimatorKind::Bidirectional, 1 << 14, 99).point_intervals(0)[0];
+    assert!(lit.half_width.unwrap() < 0.2 * lit.value, "{lit:?}");
+    let least_cd_m2 = 0.6 / PI * (lit.value - lit.half_width.unwrap());
+    scene.sensors.clear();
+    let eye = Camera { vertical_fov_rad: 0.02, resolution: [2, 2], ..camera(from, on_wall) };
+    scene.cameras.push(eye);
+    let pictures = (0..20).map(|seed| run(&scene, EstimatorKind::Auto, 2, seed));
+    let pixels: Vec<Pixel> = pictures.flat_map(|it| it.cameras[0].pixels.to_vec()).collect();
+    let too_low = |with_unseen: f32| {
+        let most = |pixel: &Pixel| {
+            let unseen = pixel.unseen_cd_m2.unwrap();
+            pixel.luminance_cd_m2 + pixel.half_width_cd_m2.unwrap_or(0.0) + with_unseen * unseen
+        };
+        pixels.iter().filter(|pixel| f64::from(most(pixel)) < least_cd_m2).count()
+    };
+    assert_eq!(too_low(1.0), 0, "of {}, {least_cd_m2} cd/m2", pixels.len());
+    assert!(too_low(0.0) > 20, "nothing was tested: {} of {}", too_low(0.0), pixels.len());
 }

@@ -11,7 +11,9 @@ pub(in crate::estimator::bidirectional) struct PixelCaps(Vec<PixelCap>);
 
 /// Of one kind.
 struct PixelCap {
-    /// Of eye paths, in cd/m^2.
+    /// Of what comes straight to the camera, or to what it sees, in cd/m^2: by eye paths alone.
+    straight_cd_m2: f64,
+    /// Of eye paths that find the rest, in cd/m^2.
     of_eye_cd_m2: f64,
     /// Of photons on a disc, times its area, in cd.
     of_photons_cd: f64,
@@ -28,7 +30,6 @@ impl PixelCaps {
         let scale = world.bsdfs().iter().map(Bsdf::scale_inside).fold(1.0, f64::max);
         let has_specular = world.has_specular_facets();
         let of_kind = |kind: &Kind| {
-            // What is straight to the camera, or to what it sees.
             let straight_lx = match kind.straight {
                 Straight::AtMost(lx) => lx,
                 Straight::Computed | Straight::OfLuminaires => 0.0,
@@ -36,7 +37,8 @@ impl PixelCaps {
             let met_lx = if has_specular { kind.met_lx } else { 0.0 };
             let eye_lx = kind.eye_samples * kind.eye_lx.max(met_lx);
             PixelCap {
-                of_eye_cd_m2: scale * straight_lx.max(eye_lx) * FRAC_1_PI,
+                straight_cd_m2: scale * straight_lx * FRAC_1_PI,
+                of_eye_cd_m2: scale * eye_lx * FRAC_1_PI,
                 of_photons_cd: scale * surfaces.most_sr() * kind.flux_lm * samples * crossings,
             }
         };
@@ -45,7 +47,10 @@ impl PixelCaps {
 
     /// Of a pixel whose photons count on discs of this area at least: 0 where none count.
     pub(in crate::estimator::bidirectional) fn most_cd_m2(&self, disc_m2: f64) -> f64 {
-        let most = |cap: &PixelCap| cap.of_eye_cd_m2.min(cap.of_photons_cd / disc_m2);
+        let most = |cap: &PixelCap| {
+            let of_photons_cd_m2 = cap.of_photons_cd / disc_m2;
+            cap.straight_cd_m2.max(cap.of_eye_cd_m2.min(of_photons_cd_m2))
+        };
         self.0.iter().map(most).fold(0.0, f64::max)
     }
 }

@@ -109,7 +109,10 @@ impl<'p, S: Spectrum> CameraPath<'p, S> {
             }
             return Arrival::Over;
         };
-        found.add(self.section, self.bounces, self.beta * context.world.emitted_cd_m2(at));
+        let emitted_cd_m2 = context.world.emitted_cd_m2(at);
+        if emitted_cd_m2 != 0.0 {
+            found.add(self.section, self.bounces, self.beta * emitted_cd_m2);
+        }
         if context.max_bounces.is_some_and(|most| self.bounces >= most) {
             return Arrival::Over;
         }

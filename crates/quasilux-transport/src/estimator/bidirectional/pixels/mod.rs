@@ -20,6 +20,7 @@ use super::engine::Engine;
 use super::eye_path::Sink;
 use super::join_rate::JoinPilots;
 use super::light_subpath::is_narrow;
+use super::nearest_emitter::EmittingFacets;
 use super::plan::Receiver;
 use crate::context::Context;
 use crate::spectrum::Spectrum;
@@ -39,6 +40,7 @@ pub(crate) struct PixelTracer<'a, S> {
     pilots: JoinPilots<S>,
     /// Whether photons are counted: eye paths find all light of scenes without narrow surfaces.
     merges: bool,
+    emitting: EmittingFacets<'a, S>,
     /// What places in the open take.
     open: Receiver,
     caps: PixelCaps,
@@ -78,7 +80,8 @@ impl<'a, S: Spectrum> PixelTracer<'a, S> {
         let pilots = JoinPilots::trace(&engine);
         let merges = context.world.bsdfs().iter().any(is_narrow);
         let open = largest_receiver(&context.world, merges.then(|| photons(pixels)));
-        Some(Self { caps: PixelCaps::new(&engine), engine, pilots, merges, open })
+        let emitting = EmittingFacets::new(&context.world);
+        Some(Self { caps: PixelCaps::new(&engine), engine, pilots, merges, emitting, open })
     }
 
     /// The radius in m of the discs that photons count on in the open; `None` where none count.

@@ -4,7 +4,6 @@ use super::camera_paths::Seen;
 use super::light::SUBPATHS;
 use super::{DVec3, PixelTracer, Spectrum, World};
 use crate::estimator::bidirectional::asked_luminaires::nearest_luminaire_m;
-use crate::estimator::bidirectional::nearest_emitter::EmittingFacets;
 use crate::estimator::bidirectional::plan::{
     Receiver, largest_disc_m2, largest_radius_m, near_part,
 };
@@ -83,7 +82,6 @@ impl<S: Spectrum> PixelTracer<'_, S> {
         let (mut hits, mut met) = (Vec::<Option<Hit>>::new(), Vec::<Option<Interaction>>::new());
         world.trace_all(&queries, &mut hits, &mut met);
         work.rays += queries.len() as u64;
-        let emitting = EmittingFacets::new(world);
         let luminaires = &context.lights.area_luminaires;
         for (SeenPlace { receiver, .. }, met) in
             places.iter_mut().zip(met.chunks_exact(LOOKS as usize))
@@ -92,7 +90,7 @@ impl<S: Spectrum> PixelTracer<'_, S> {
             let free_m = distances_m.fold(f64::INFINITY, f64::min);
             let radius_m = largest_radius_m(world).min(free_m).max(world.hair_m());
             let nearest_m = nearest_luminaire_m(luminaires, receiver.position, receiver.n)
-                .min(emitting.distance_m(receiver.position, receiver.n));
+                .min(self.emitting.distance_m(receiver.position, receiver.n));
             receiver.radius_m = Some(radius_m);
             receiver.area_m2 = PI * radius_m * radius_m;
             receiver.near_part = near_part(world, nearest_m, radius_m);
