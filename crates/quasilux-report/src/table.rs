@@ -382,7 +382,7 @@ mod tests {
         let text = table(&report, Style::Plain);
         let lines: Vec<&str> = text.lines().collect();
         assert!(lines[0].starts_with("camera   pixels    samples   mean"), "{text}");
-        let wanted = "view     40 x 30   16        8.000 ± 0 cd/m²   8 cd/m²   ± 0.5 cd/m² (5.6 %)";
+        let wanted = "view     40 x 30   16        8.000 ± 0 cd/m²   8 cd/m²   ± 0.5 cd/m² (6.2 %)";
         assert_eq!(lines[1], wanted, "{text}");
         assert!(text.contains("every picture has all its paths"), "{text}");
         assert!(text.contains("16 replicates of 16 paths a pixel"), "{text}");

@@ -9,5 +9,6 @@ pub(crate) mod memory;
 pub(crate) mod parts;
 pub(crate) mod pictures;
 mod pixels;
+mod raster;
 pub(crate) mod simulate;
 pub mod trial;

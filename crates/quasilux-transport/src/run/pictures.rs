@@ -11,7 +11,8 @@
 use crate::context::Context;
 use crate::cutoff;
 use crate::path::sections::WorkCounts;
-use crate::run::pixels::{Darkroom, Exposure, Part};
+use crate::run::pixels::{Darkroom, Exposure};
+use crate::run::raster::Part;
 use crate::settings::Settings;
 use crate::spectrum::Spectrum;
 use crate::stats::estimates::Estimates;

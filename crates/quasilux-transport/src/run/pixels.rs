@@ -16,6 +16,7 @@ use crate::path::sections::WorkCounts;
 use crate::path::start::{Measurement, Start};
 use crate::path::wave::{PathWave, WAVE};
 use crate::photon::caustics::CausticMap;
+use crate::run::raster::{Part, PixelBlock, Raster};
 use crate::settings::Settings;
 use crate::spectrum::Spectrum;
 use crate::stats::interval::{Interval, t_quantile_for};
@@ -28,8 +29,6 @@ use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// Pixels along the edge of a block.
-const BLOCK: usize = 16;
 /// Blocks that are traced together at least, and for each thread, so that all have work; and those
 /// that the same light serves before it is traced again.
 const TOGETHER: usize = 24;
@@ -37,9 +36,6 @@ const OF_A_THREAD: usize = 2;
 const REGION: usize = 240;
 /// Indices between two words to the observer: half a second of a processor with two cores.
 pub(super) const INDICES: u64 = 2;
-/// A sample is one block in so many of each row, further right by so many from row to row.
-const SAMPLE_STEP: usize = 8;
-const SAMPLE_SLOPE: usize = 3;
 /// Channels of a picture.
 const RGB: usize = 3;
 
@@ -48,8 +44,7 @@ pub(super) struct Darkroom<'a, S> {
     context: &'a Context<'a, S>,
     number: u32,
     view: View,
-    width: usize,
-    pixels: usize,
+    raster: Raster,
     replicates: u32,
     /// The quantile behind the half-widths of pixels, which takes long to find.
     t: Option<f64>,
@@ -70,30 +65,14 @@ pub(super) struct Exposure {
     pub(super) invalid: u64,
 }
 
-/// What a pass is over.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Part {
-    All,
-    /// Some blocks, to see what the others will need.
-    Sample,
-}
-
-/// A rectangle of pixels.
-#[derive(Clone, Copy, Debug)]
-struct Block {
-    /// Column and row of its top left pixel.
-    first: [usize; 2],
-    /// Pixels across and down.
-    size: [usize; 2],
-}
-
 /// A block while it is traced.
 struct Tray {
     /// Numbers of its pixels in the picture.
     places: Vec<usize>,
     /// Of pixel p in replicate r at `p * replicates + r`.
     sums: Vec<PixelSums>,
-    /// Of each pixel, the smallest disc that photons count on, in m^2; `None` where nothing is seen.
+    /// Of each pixel, the smallest disc that photons count on, in m^2; `None` where nothing is
+    /// seen.
     least_disc_m2: Vec<Option<f64>>,
     /// How often light vertices are joined to what it sees.
     per_sure_m2: f64,
@@ -175,8 +154,7 @@ impl<'a, S: Spectrum> Darkroom<'a, S> {
             context,
             number,
             view: camera.view(),
-            width: camera.resolution[0] as usize,
-            pixels: camera.pixels(),
+            raster: Raster { size: camera.resolution.map(|edge| edge as usize) },
             replicates,
             t: t_quantile_for(replicates as usize, 1.0 - settings.confidence),
             quantum: Quantum::for_reference(context.lights.reference_lx(&context.world)),
@@ -216,8 +194,8 @@ impl<'a, S: Spectrum> Darkroom<'a, S> {
         work: &mut WorkCounts,
         mut tick: impl FnMut(u64, u64, f64) -> bool,
     ) -> Option<Exposure> {
-        let blocks = self.blocks(part);
-        let mut pixels = vec![Pixel::default(); self.pixels];
+        let blocks = self.raster.blocks(part);
+        let mut pixels = vec![Pixel::default(); self.raster.pixels()];
         let mut sums = vec![PixelSums::default(); self.replicates as usize];
         let together = TOGETHER.max(OF_A_THREAD * rayon::current_num_threads());
         let mut done = 0.0;
@@ -248,7 +226,7 @@ impl<'a, S: Spectrum> Darkroom<'a, S> {
             }
         }
         if let Part::Sample = part {
-            let places = blocks.iter().flat_map(|&block| self.places(block));
+            let places = blocks.iter().flat_map(|&block| self.raster.places(block));
             pixels = places.map(|place| pixels[place]).collect();
         }
         let invalid = sums.iter().flat_map(|sums| sums.channels).map(|sum| sum.invalid).sum();
@@ -276,44 +254,16 @@ impl<'a, S: Spectrum> Darkroom<'a, S> {
 
     /// How many blocks a picture has.
     pub(super) fn block_count(&self) -> usize {
-        self.blocks(Part::All).len()
+        self.raster.blocks(Part::All).len()
     }
 
-    /// The blocks of the picture, row by row.
-    fn blocks(&self, part: Part) -> Vec<Block> {
-        let [width, height] = [self.width, self.pixels / self.width];
-        let size = |first: usize, all: usize| (all - first).min(BLOCK);
-        let firsts =
-            (0..height).step_by(BLOCK).flat_map(|y| (0..width).step_by(BLOCK).map(move |x| [x, y]));
-        let block =
-            |[x, y]: [usize; 2]| Block { first: [x, y], size: [size(x, width), size(y, height)] };
-        let is_in = |[x, y]: &[usize; 2]| match part {
-            Part::All => true,
-            Part::Sample => (x / BLOCK + SAMPLE_SLOPE * (y / BLOCK)).is_multiple_of(SAMPLE_STEP),
-        };
-        firsts.filter(is_in).map(block).collect()
-    }
-
-    /// Numbers of the pixels of a block.
-    fn places(&self, block: Block) -> impl Iterator<Item = usize> {
-        let Block { first: [x0, y0], size: [across, down] } = block;
-        let width = self.width;
-        (y0..y0 + down).flat_map(move |y| (x0..x0 + across).map(move |x| y * width + x))
-    }
-
-    fn tray(&self, block: Block) -> Tray {
-        let places: Vec<usize> = self.places(block).collect();
+    fn tray(&self, block: PixelBlock) -> Tray {
+        let places: Vec<usize> = self.raster.places(block).collect();
         let per_sure_m2 = match &self.tracer {
             Tracer::Paths(_) => 0.0,
             Tracer::Bidirectional(tracer) => {
-                let quarter = |x: f64, y: f64| {
-                    let place =
-                        |first: usize, size: usize, at: f64| first as f64 + at * size as f64;
-                    let Block { first, size } = block;
-                    self.view.direction([place(first[0], size[0], x), place(first[1], size[1], y)])
-                };
-                let quarters = [0.25, 0.75].map(|y| [0.25, 0.75].map(|x| quarter(x, y)));
-                tracer.per_sure_m2(self.view.position, quarters.as_flattened())
+                let directions = block.quarters().map(|place| self.view.direction(place));
+                tracer.per_sure_m2(self.view.position, &directions)
             }
         };
         let count = places.len();
@@ -385,7 +335,7 @@ impl<'a, S: Spectrum> Darkroom<'a, S> {
         let unit = PixelUnit {
             camera: self.number,
             view: &self.view,
-            width: self.width,
+            width: self.raster.width(),
             pixels: &places,
             replicate: sink.replicate as u32,
             per_sure_m2: sink.tray.per_sure_m2,
@@ -433,7 +383,7 @@ impl<'a, S: Spectrum> Darkroom<'a, S> {
     fn start<'p>(&'p self, pixel: usize, points: &'p PointSet, index: u64) -> Start<'p, S> {
         let mut sampler = Sampler::new(points, index);
         let [u, v] = sampler.next_2d();
-        let (x, y) = ((pixel % self.width) as f64, (pixel / self.width) as f64);
+        let (x, y) = ((pixel % self.raster.width()) as f64, (pixel / self.raster.width()) as f64);
         let direction = self.view.direction([x + u, y + v]);
         Start {
             caustics: None,
