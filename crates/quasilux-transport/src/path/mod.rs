@@ -4,6 +4,7 @@ pub(crate) mod contribution;
 pub(crate) mod daylight;
 pub(crate) mod daylight_paths;
 pub(crate) mod end;
+pub(crate) mod pixel_rays;
 pub(crate) mod russian_roulette;
 pub(crate) mod sections;
 pub(crate) mod start;

@@ -9,9 +9,10 @@
 //! No sums are kept for a picture: a few blocks of pixels are traced in all replicates, then
 //! summarised, and 32 bytes a pixel stay. `run/pictures.rs` says how many paths a pixel gets.
 
-use crate::context::{Context, Stream};
-use crate::estimator::bidirectional::{PictureLight, PixelSink, PixelTracer, PixelUnit};
+use crate::context::Context;
+use crate::estimator::bidirectional::{PictureLight, PixelSink, PixelTracer, PixelUnit, Sink};
 use crate::path::contribution::PathContribution;
+use crate::path::pixel_rays::PixelRays;
 use crate::path::sections::WorkCounts;
 use crate::path::start::{Measurement, Start};
 use crate::path::wave::{PathWave, WAVE};
@@ -23,8 +24,7 @@ use crate::stats::interval::{Interval, t_quantile_for};
 use crate::stats::picture::{CameraEstimates, Pixel};
 use crate::stats::tally::{Quantum, Sum};
 use crate::stats::watch::Watch;
-use quasilux_sampling::{PointSet, Sampler};
-use quasilux_scene::{Camera, View};
+use quasilux_scene::Camera;
 use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::Arc;
@@ -42,8 +42,7 @@ const RGB: usize = 3;
 /// Where the picture of one camera is made.
 pub(super) struct Darkroom<'a, S> {
     context: &'a Context<'a, S>,
-    number: u32,
-    view: View,
+    rays: PixelRays,
     raster: Raster,
     replicates: u32,
     /// The quantile behind the half-widths of pixels, which takes long to find.
@@ -59,6 +58,14 @@ enum Tracer<'a, S> {
     Bidirectional(Box<PixelTracer<'a, S>>),
 }
 
+/// What serves the pixels that are traced together.
+enum Light<'d, S> {
+    /// Light that plain paths do not find.
+    Caustics(Option<&'d CausticMap<S>>),
+    /// That of some indices, of each replicate.
+    Subpaths(&'d PixelTracer<'d, S>, Vec<PictureLight<S>>),
+}
+
 /// A picture, and how many contributions are not in it.
 pub(super) struct Exposure {
     pub(super) figures: CameraEstimates,
@@ -69,13 +76,18 @@ pub(super) struct Exposure {
 struct Tray {
     /// Numbers of its pixels in the picture.
     places: Vec<usize>,
+    /// How often light vertices are joined to what it sees.
+    per_sure_m2: f64,
+    found: BlockSums,
+}
+
+/// What the paths of a block found.
+struct BlockSums {
     /// Of pixel p in replicate r at `p * replicates + r`.
     sums: Vec<PixelSums>,
     /// Of each pixel, the smallest disc that photons count on, in m^2; `None` where nothing is
     /// seen.
     least_disc_m2: Vec<Option<f64>>,
-    /// How often light vertices are joined to what it sees.
-    per_sure_m2: f64,
 }
 
 /// What the paths of one pixel in one replicate found, on average.
@@ -90,29 +102,38 @@ struct PixelSums {
 
 /// Takes what paths of one replicate find.
 struct Developer<'t> {
-    tray: &'t mut Tray,
-    replicate: usize,
-    replicates: usize,
+    found: &'t mut BlockSums,
+    replicate: u32,
+    replicates: u32,
     /// What one path of a pixel counts.
     share: f64,
     quantum: Quantum,
 }
 
+impl Developer<'_> {
+    /// Of a pixel of the block.
+    fn sums(&mut self, pixel: usize) -> &mut PixelSums {
+        &mut self.found.sums[pixel * self.replicates as usize + self.replicate as usize]
+    }
+}
+
+impl<S: Spectrum> Sink<S> for Developer<'_> {
+    fn add(&mut self, pixel: usize, _bounces: u32, light: S) {
+        let (share, quantum) = (self.share, self.quantum);
+        self.sums(pixel).add(light * share, quantum);
+    }
+
+    fn add_merged(&mut self, pixel: usize, bounces: u32, light: S) {
+        self.add(pixel, bounces, light);
+        let (share, quantum) = (self.share, self.quantum);
+        self.sums(pixel).merged.add(light.luminance() * share, quantum);
+    }
+}
+
 impl<S: Spectrum> PixelSink<S> for Developer<'_> {
-    fn add(&mut self, pixel: usize, light: S) {
-        let sums = &mut self.tray.sums[pixel * self.replicates + self.replicate];
-        sums.add(light * self.share, self.quantum);
-    }
-
-    fn add_merged(&mut self, pixel: usize, light: S) {
-        PixelSink::add(self, pixel, light);
-        let sums = &mut self.tray.sums[pixel * self.replicates + self.replicate];
-        sums.merged.add(light.luminance() * self.share, self.quantum);
-    }
-
     fn arrive(&mut self, pixel: usize, disc_m2: f64) {
-        self.tray.sums[pixel * self.replicates + self.replicate].reflected += 1;
-        let least_m2 = &mut self.tray.least_disc_m2[pixel];
+        self.sums(pixel).reflected += 1;
+        let least_m2 = &mut self.found.least_disc_m2[pixel];
         *least_m2 = Some(least_m2.map_or(disc_m2, |least_m2| least_m2.min(disc_m2)));
     }
 }
@@ -150,11 +171,11 @@ impl<'a, S: Spectrum> Darkroom<'a, S> {
             }
             false => Tracer::Paths(CausticMap::new(context, settings, &[]).map(Box::new)),
         };
+        let raster = Raster { size: camera.resolution.map(|edge| edge as usize) };
         Some(Self {
             context,
-            number,
-            view: camera.view(),
-            raster: Raster { size: camera.resolution.map(|edge| edge as usize) },
+            rays: PixelRays { camera: number, view: camera.view(), width: raster.size[0] },
+            raster,
             replicates,
             t: t_quantile_for(replicates as usize, 1.0 - settings.confidence),
             quantum: Quantum::for_reference(context.lights.reference_lx(&context.world)),
@@ -216,10 +237,9 @@ impl<'a, S: Spectrum> Darkroom<'a, S> {
                 }
                 indices = indices.end..(indices.end + INDICES).min(samples);
             }
-            for tray in trays {
-                let own = tray.sums.chunks_exact(self.replicates as usize);
-                for (own, (place, disc_m2)) in own.zip(tray.places.iter().zip(&tray.least_disc_m2))
-                {
+            for Tray { places, found, .. } in trays {
+                let own = found.sums.chunks_exact(self.replicates as usize);
+                for (own, (place, disc_m2)) in own.zip(places.iter().zip(found.least_disc_m2)) {
                     sums.iter_mut().zip(own).for_each(|(sum, own)| sum.merge(*own));
                     pixels[*place] = self.pixel(own, samples, disc_m2.unwrap_or(0.0));
                 }
@@ -262,55 +282,64 @@ impl<'a, S: Spectrum> Darkroom<'a, S> {
         let per_sure_m2 = match &self.tracer {
             Tracer::Paths(_) => 0.0,
             Tracer::Bidirectional(tracer) => {
-                let directions = block.quarters().map(|place| self.view.direction(place));
-                tracer.per_sure_m2(self.view.position, &directions)
+                let view = &self.rays.view;
+                let directions = block.quarters().map(|place| view.direction(place));
+                tracer.per_sure_m2(view.position, &directions)
             }
         };
         let count = places.len();
-        Tray {
-            places,
+        let found = BlockSums {
             sums: vec![PixelSums::default(); count * self.replicates as usize],
             least_disc_m2: vec![None; count],
-            per_sure_m2,
-        }
+        };
+        Tray { places, per_sure_m2, found }
     }
 
-    /// What serves all pixels, of each replicate; nothing for plain paths.
-    fn light(&self, indices: Range<u64>, work: &mut WorkCounts) -> Vec<PictureLight<S>> {
-        let Tracer::Bidirectional(tracer) = &self.tracer else { return Vec::new() };
+    /// What serves all pixels with these indices.
+    fn light(&self, indices: Range<u64>, work: &mut WorkCounts) -> Light<'_, S> {
+        let tracer = match &self.tracer {
+            Tracer::Paths(caustics) => return Light::Caustics(caustics.as_deref()),
+            Tracer::Bidirectional(tracer) => tracer,
+        };
         let replicates = (0..self.replicates).into_par_iter();
         let light = replicates.map(|replicate| tracer.light(replicate, indices.clone()));
         let light: Vec<PictureLight<S>> = light.collect();
         light.iter().for_each(|light| *work += light.work.clone());
-        light
+        Light::Subpaths(tracer, light)
     }
 
     /// Traces paths of the pixels of some blocks in all replicates: these of so many.
     fn trace(
         &self,
         trays: &mut [Tray],
-        light: &[PictureLight<S>],
+        light: &Light<'_, S>,
         indices: Range<u64>,
         samples: u64,
     ) -> WorkCounts {
         let of_tray = |wave: &mut PathWave<S>, tray: &mut Tray| {
             let mut work = WorkCounts::default();
+            let Tray { places, per_sure_m2, found } = tray;
             for replicate in 0..self.replicates {
-                let light = light.get(replicate as usize);
-                let sink = Developer {
-                    tray,
-                    replicate: replicate as usize,
-                    replicates: self.replicates as usize,
+                let sink = &mut Developer {
+                    found,
+                    replicate,
+                    replicates: self.replicates,
                     share: 1.0 / samples as f64,
                     quantum: self.quantum,
                 };
-                work += match (&self.tracer, light) {
-                    (Tracer::Bidirectional(tracer), Some(light)) => {
-                        self.trace_bidirectional(tracer, light, sink)
+                work += match light {
+                    Light::Subpaths(tracer, light) => {
+                        let unit = PixelUnit {
+                            rays: &self.rays,
+                            pixels: places,
+                            replicate,
+                            per_sure_m2: *per_sure_m2,
+                            light: &light[replicate as usize],
+                        };
+                        tracer.trace(&unit, sink)
                     }
-                    (Tracer::Bidirectional(_), None) => WorkCounts::default(),
-                    (Tracer::Paths(caustics), _) => {
-                        self.trace_paths(caustics.as_deref(), indices.clone(), sink, wave)
+                    Light::Caustics(caustics) => {
+                        self.trace_paths(places, *caustics, indices.clone(), sink, wave)
                     }
                 };
             }
@@ -324,75 +353,40 @@ impl<'a, S: Spectrum> Darkroom<'a, S> {
         })
     }
 
-    /// Bidirectional paths of pixels in the replicate of a sink.
-    fn trace_bidirectional(
-        &self,
-        tracer: &PixelTracer<'_, S>,
-        light: &PictureLight<S>,
-        mut sink: Developer<'_>,
-    ) -> WorkCounts {
-        let places = sink.tray.places.clone();
-        let unit = PixelUnit {
-            camera: self.number,
-            view: &self.view,
-            width: self.raster.width(),
-            pixels: &places,
-            replicate: sink.replicate as u32,
-            per_sure_m2: sink.tray.per_sure_m2,
-            light,
-        };
-        tracer.trace(&unit, &mut sink)
-    }
-
     /// Plain paths of pixels in the replicate of a sink.
     fn trace_paths(
         &self,
+        places: &[usize],
         caustics: Option<&CausticMap<S>>,
         indices: Range<u64>,
-        mut sink: Developer<'_>,
+        sink: &mut Developer<'_>,
         wave: &mut PathWave<S>,
     ) -> WorkCounts {
-        let places = sink.tray.places.clone();
-        let replicate = sink.replicate as u32;
-        let stream = |&pixel: &usize| Stream::Pixel { camera: self.number, pixel: pixel as u32 };
-        let points: Vec<PointSet> =
-            places.iter().map(|pixel| self.context.points(replicate, stream(pixel))).collect();
-        let all = (0..places.len()).flat_map(|it| indices.clone().map(move |index| (it, index)));
-        let all: Vec<(usize, u64)> = all.collect();
+        let Self { context, rays, .. } = self;
+        let points = rays.points(context, sink.replicate, places);
         let mut work = WorkCounts::default();
+        let all = rays.through(&context.world, places, &points, indices);
         for together in all.chunks(WAVE as usize) {
-            let starts = together.iter().map(|&(pixel, index)| Start {
-                caustics: caustics.and_then(|caustics| caustics.map(replicate)),
-                ..self.start(places[pixel], &points[pixel], index)
+            let starts = together.iter().map(|ray| Start {
+                caustics: caustics.and_then(|caustics| caustics.map(sink.replicate)),
+                from: ray.from,
+                measurement: Measurement::Luminance { direction: ray.direction },
+                map_end: None,
+                daylight: None,
+                sampler: ray.sampler.clone(),
             });
-            for (&(pixel, _), mut path) in together.iter().zip(wave.trace(self.context, starts)) {
+            for (ray, mut path) in together.iter().zip(wave.trace(context, starts)) {
                 let ended = path.end();
                 let PathContribution { direct, indirect, reflected, .. } = &ended.found;
-                sink.add(pixel, *direct + *indirect);
+                sink.add(ray.section, 0, *direct + *indirect);
                 if *reflected {
-                    PixelSink::<S>::arrive(&mut sink, pixel, f64::INFINITY);
+                    PixelSink::<S>::arrive(sink, ray.section, f64::INFINITY);
                 }
                 work.add(&ended);
             }
         }
         work.rays += wave.take_rays();
         work
-    }
-
-    /// A plain path through the place of a pixel that its first two coordinates give.
-    fn start<'p>(&'p self, pixel: usize, points: &'p PointSet, index: u64) -> Start<'p, S> {
-        let mut sampler = Sampler::new(points, index);
-        let [u, v] = sampler.next_2d();
-        let (x, y) = ((pixel % self.raster.width()) as f64, (pixel / self.raster.width()) as f64);
-        let direction = self.view.direction([x + u, y + v]);
-        Start {
-            caustics: None,
-            from: self.context.world.ray_origin_of_sensor(self.view.position, direction),
-            measurement: Measurement::Luminance { direction },
-            map_end: None,
-            daylight: None,
-            sampler,
-        }
     }
 
     /// What the replicates say together.

@@ -109,7 +109,7 @@ impl<S: Spectrum> Default for EyePaths<S> {
 }
 
 /// Who gets what paths find.
-pub(super) trait Sink<S> {
+pub(crate) trait Sink<S> {
     /// Adds light that came to a section by so many surfaces and panes.
     fn add(&mut self, section: usize, bounces: u32, light: S);
 

@@ -88,4 +88,5 @@ mod supremum;
 mod unit;
 
 pub(crate) use estimator::BidirectionalEstimator;
+pub(crate) use eye_path::Sink;
 pub(crate) use pixels::{MAX_PHOTONS, PictureLight, PixelSink, PixelTracer, PixelUnit};

@@ -1,5 +1,8 @@
 //! Which light subpaths an eye path is paired with: none in particular.
 
+use quasilux_sampling::{PointSet, Sampler};
+use std::ops::Range;
+
 /// Odd numbers that mix the digits of indices: those of SplitMix64 (G. L. Steele, D. Lea, C. H.
 /// Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014).
 const MIXING: [u64; 3] = [0x9e37_79b9_7f4a_7c15, 0xbf58_476d_1ce4_e5b9, 0x94d0_49bb_1331_11eb];
@@ -10,7 +13,7 @@ const MIXING: [u64; 3] = [0x9e37_79b9_7f4a_7c15, 0xbf58_476d_1ce4_e5b9, 0x94d0_4
 /// have as few pairs of directions as there are permutations. So each power of two of indices up to
 /// the next is mixed, by multiplications that carry digits up and shifts that carry them down: both
 /// subpaths have all points of a balanced set there, and nothing in common.
-pub(super) fn partner(index: u64) -> u64 {
+fn partner(index: u64) -> u64 {
     let first = (index + 1).next_power_of_two() / 2;
     if first < 2 {
         return index;
@@ -22,6 +25,18 @@ pub(super) fn partner(index: u64) -> u64 {
         mixed ^= mixed >> half;
     }
     first + mixed
+}
+
+/// The samples of the light subpaths of some indices, `each` of them for one.
+pub(super) fn partners(
+    points: &PointSet,
+    indices: Range<u64>,
+    each: u64,
+) -> impl Iterator<Item = Sampler<'_>> {
+    indices.flat_map(move |index| {
+        let own = partner(index) * each;
+        (own..own + each).map(|index| Sampler::new(points, index))
+    })
 }
 
 #[cfg(test)]

@@ -68,12 +68,48 @@ pub(super) fn largest_radius_m<S: Spectrum>(world: &World<S>) -> f64 {
     RADIUS_M.min(SHARE_OF_SIZE * world.size_m())
 }
 
-/// The part of a disc of this radius on which photons count that come straight from lights with an
-/// area, of which the nearest is so far away.
-pub(super) fn near_part<S: Spectrum>(world: &World<S>, nearest_m: f64, radius_m: f64) -> f64 {
-    let near_m = (SHARE_OF_DISTANCE * nearest_m).max(world.hair_m());
-    let share = (near_m / radius_m).min(1.0);
-    share * share
+/// A disc that photons are counted on.
+pub(super) struct PhotonDisc {
+    pub(super) radius_m: f64,
+    pub(super) area_m2: f64,
+    /// [`Receiver::near_part`].
+    pub(super) near_part: f64,
+}
+
+impl PhotonDisc {
+    /// Around a place with the normal `n`, where the nearest wall in its plane is so far away.
+    pub(super) fn new<S: Spectrum>(
+        context: &Context<'_, S>,
+        emitting: &EmittingFacets<'_, S>,
+        position: DVec3,
+        n: DVec3,
+        free_m: f64,
+    ) -> Self {
+        let world = &context.world;
+        let radius_m = largest_radius_m(world).min(free_m).max(world.hair_m());
+        let nearest_m = nearest_luminaire_m(&context.lights.area_luminaires, position, n);
+        let nearest_m = nearest_m.min(emitting.distance_m(position, n));
+        let near_m = (SHARE_OF_DISTANCE * nearest_m).max(world.hair_m());
+        let share = (near_m / radius_m).min(1.0);
+        Self { radius_m, area_m2: PI * radius_m * radius_m, near_part: share * share }
+    }
+}
+
+/// So many directions, evenly around in the plane with the normal `n`.
+pub(super) fn around(n: DVec3, looks: u32) -> impl Iterator<Item = DVec3> {
+    let across = n.any_orthonormal_vector();
+    let beside = n.cross(across);
+    (0..looks).map(move |look| {
+        let (sin, cos) = libm::sincos(TAU * f64::from(look) / f64::from(looks));
+        across * cos + beside * sin
+    })
+}
+
+/// Half a join for each light subpath where its vertices lie evenly, until pilots know more
+/// (`join_rate`); in m^2, see [`Receiver::per_sure_m2`].
+pub(super) fn per_sure_before_pilots_m2<S: Spectrum>(world: &World<S>) -> f64 {
+    let area_m2: f64 = world.facets.iter().map(|facet| facet.area_m2()).sum();
+    0.5 * area_m2.max(f64::MIN_POSITIVE) / TAU
 }
 
 /// Between a target and a surface.
@@ -122,10 +158,10 @@ pub(super) fn receivers<S: Spectrum>(
     watch: &mut Watch<'_>,
 ) -> Option<Vec<Receiver>> {
     let world = &context.world;
-    let area_m2: f64 = world.facets.iter().map(|facet| facet.area_m2()).sum();
+    let per_sure_m2 = per_sure_before_pilots_m2(world);
     let emitting = EmittingFacets::new(world);
     let most_scale = world.bsdfs().iter().map(Bsdf::scale_inside).fold(1.0, f64::max);
-    let receiver = |it: &Target| Receiver::new(context, it, area_m2, most_scale, &emitting);
+    let receiver = |it: &Target| Receiver::new(context, it, per_sure_m2, most_scale, &emitting);
     watch.map_in_parts(targets, POINTS_AT_ONCE, receiver)
 }
 
@@ -155,13 +191,8 @@ struct Around {
 
 impl Around {
     fn new<S: Spectrum>(world: &World<S>, from: RayOrigin, n: DVec3) -> Self {
-        let across = n.any_orthonormal_vector();
-        let beside = n.cross(across);
-        let directions = (0..LOOKS).map(|look| {
-            let (sin, cos) = libm::sincos(TAU * f64::from(look) / f64::from(LOOKS));
-            across * cos + beside * sin
-        });
-        let met: Vec<Interaction> = directions.filter_map(|it| world.trace(from, it)).collect();
+        let met = around(n, LOOKS).filter_map(|it| world.trace(from, it));
+        let met: Vec<Interaction> = met.collect();
         let free_m = met.iter().map(|at| at.distance_m).fold(f64::INFINITY, f64::min);
         let before = world.trace(from, n);
         let from_inside = met.iter().chain(&before).filter(|at| !at.front);
@@ -174,30 +205,23 @@ impl Receiver {
     fn new<S: Spectrum>(
         context: &Context<'_, S>,
         target: &Target,
-        area_m2: f64,
+        per_sure_m2: f64,
         most_scale: f64,
         emitting: &EmittingFacets<'_, S>,
     ) -> Self {
         let world = &context.world;
-        // Half a join for each light subpath where its vertices lie evenly, until pilots know more
-        // (`join_rate`).
-        let per_sure_m2 = 0.5 * area_m2.max(f64::MIN_POSITIVE) / TAU;
         match *target {
             Target::Point { position, normal: n } => {
                 let from = world.ray_origin_of_sensor(position, n);
                 let Around { free_m, radiance_scale } = Around::new(world, from, n);
-                let radius_m = largest_radius_m(world).min(free_m).max(world.hair_m());
-                let area_m2 = PI * radius_m * radius_m;
-                let (luminaires, place) = (&context.lights.area_luminaires, from.position());
-                let nearest_m = nearest_luminaire_m(luminaires, place, n);
-                let nearest_m = nearest_m.min(emitting.distance_m(place, n));
+                let disc = PhotonDisc::new(context, emitting, from.position(), n, free_m);
                 Self {
                     target: *target,
                     position: from.position(),
                     n,
-                    area_m2,
-                    radius_m: Some(radius_m),
-                    near_part: near_part(world, nearest_m, radius_m),
+                    area_m2: disc.area_m2,
+                    radius_m: Some(disc.radius_m),
+                    near_part: disc.near_part,
                     radiance_scale,
                     subpaths: SUBPATHS,
                     photons: SUBPATHS,

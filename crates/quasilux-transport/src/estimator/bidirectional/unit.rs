@@ -9,7 +9,7 @@ use super::eye_path::{EyePaths, Sink, Start};
 use super::flux_tally::FluxTally;
 use super::joins::{JoinWork, Joiner};
 use super::light_subpath::LightSubpaths;
-use super::partner::partner;
+use super::partner::partners;
 use super::plan::{Receiver, SUBPATHS, connected};
 use super::sums::TargetSums;
 use crate::context::Stream;
@@ -76,10 +76,7 @@ impl Unit<'_> {
         let mut sums = vec![empty; self.targets.len()];
         let points = context.points(self.replicate, Stream::SharedSubpaths);
         // Subpaths that are connected must not have the same digits.
-        let samplers = self.indices.clone().flat_map(|index| {
-            let own = partner(index) * SUBPATHS;
-            (own..own + SUBPATHS).map(|index| Sampler::new(&points, index))
-        });
+        let samplers = partners(&points, self.indices.clone(), SUBPATHS);
         let counters = Counters::new(&context.world, &receivers);
         let found = &mut SectionSums { sums: &mut sums, quantum };
         let light = LightSubpaths::trace(engine, samplers, |passing| {
@@ -88,8 +85,8 @@ impl Unit<'_> {
                 found.add_merged(section, bounces, light);
             });
         });
-        let mut work = WorkCounts { rays: light.rays, ..WorkCounts::default() };
-        work.endless += light.endless;
+        let (rays, endless) = (light.rays, light.endless);
+        let mut work = WorkCounts { rays, endless, ..WorkCounts::default() };
         work.rays += self.join(engine, &receivers, &light, found);
         work += self.gather(engine, &receivers, &light, found);
         let photons = (self.indices.end - self.indices.start) * SUBPATHS;

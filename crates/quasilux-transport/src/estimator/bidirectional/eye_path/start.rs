@@ -4,6 +4,7 @@
 use super::asking::EyeVertex;
 use super::{EyePath, EyePaths, EyeWeights, MirroredFrom};
 use crate::bsdf::TransportMode;
+use crate::context::Context;
 use crate::cutoff::Gain;
 use crate::estimator::bidirectional::engine::Engine;
 use crate::estimator::bidirectional::light_subpath::LightSubpaths;
@@ -94,22 +95,14 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
         let context = engine.context;
         let n = self.receiver.n;
         let local = DVec3::from_array(sample_cosine_hemisphere(self.sampler.next_2d()));
-        let pdf_sr = local.z * FRAC_1_PI;
         self.direction = Frame::around(n).to_world(local);
-        self.weights = EyeWeights([SubpathWeights::new(1.0 / pdf_sr, local.z / pdf_sr); 2]);
         let vertex = &Vertex::sensor(self.from, n);
-        self.asked_from = Some(Asking::at(vertex));
-        self.mirrored = MirroredFrom::new(context, vertex, pdf_sr);
         work.shadows.max_bounces = context.max_bounces.unwrap_or(u32::MAX);
         if self.receiver.is_cell() {
             self.sample_direct_all_pointlikes(engine, &self.beside_photons(vertex, false), work);
         }
-        self.sample_direct_areas(
-            engine,
-            &self.beside_photons(vertex, false),
-            &self.beside_photons(vertex, true),
-            work,
-        );
+        self.sample_direct_at_start(engine, vertex, work);
+        self.leave(context, vertex, local.z * FRAC_1_PI, local.z);
         true
     }
 
@@ -131,20 +124,31 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
         let alone = &EyeVertex { vertex, weights: EyeWeights::default(), number: 0 };
         self.sample_direct_some_pointlikes(engine, vertex, work);
         self.sample_direct_images(engine, alone, work);
-        self.sample_direct_areas(
-            engine,
-            &self.beside_photons(vertex, false),
-            &self.beside_photons(vertex, true),
-            work,
-        );
+        self.sample_direct_at_start(engine, vertex, work);
         let next = bsdf.sample(wo, at.front, TransportMode::Radiance, &mut self.sampler);
         let Some(next) = next else { return false };
         let pdf_sr = bsdf.survival_pdf_sr(wo, next.wi, favour(0));
-        let cos = next.wi.z.abs();
+        self.leave(context, vertex, pdf_sr, next.wi.z.abs());
+        self.go_on(engine, at, &frame, &next, favour(0))
+    }
+
+    /// Asks for the light of lights with an area, and from outside, beside photons that come
+    /// straight from them.
+    fn sample_direct_at_start(
+        &mut self,
+        engine: &Engine<'_, '_, S>,
+        vertex: &Vertex<'_, S>,
+        work: &mut EyePaths<S>,
+    ) {
+        let [others, of_area] = [false, true].map(|it| self.beside_photons(vertex, it));
+        self.sample_direct_areas(engine, &others, &of_area, work);
+    }
+
+    /// What it weighs having left where it measures, in a direction of this density and cosine.
+    fn leave(&mut self, context: &Context<'_, S>, vertex: &Vertex<'_, S>, pdf_sr: f64, cos: f64) {
         self.weights = EyeWeights([SubpathWeights::new(1.0 / pdf_sr, cos / pdf_sr); 2]);
         self.asked_from = Some(Asking::at(vertex));
         self.mirrored = MirroredFrom::new(context, vertex, pdf_sr);
-        self.go_on(engine, at, &frame, &next, favour(0))
     }
 
     /// Where it measures, with the photons that come straight from lights there.

@@ -5,11 +5,11 @@ use crate::cutoff::{Gain, MAX_EVENTS};
 use crate::estimator::bidirectional::departure::Departure;
 use crate::estimator::bidirectional::engine::Engine;
 use crate::estimator::bidirectional::eye_path::{FirstSurface, Sink};
+use crate::path::pixel_rays::PixelRay;
 use crate::path::sections::WorkCounts;
 use crate::spectrum::Spectrum;
+use crate::world::Interaction;
 use crate::world::vertex::Surface;
-use crate::world::{Interaction, RayOrigin};
-use glam::DVec3;
 use quasilux_bvh::{Hit, RayQuery};
 use quasilux_sampling::Sampler;
 
@@ -18,13 +18,7 @@ const FAINT: f64 = 1.0 / 16.0;
 
 /// A path that has left the pinhole.
 pub(super) struct CameraPath<'p, S> {
-    /// Number of its pixel.
-    pub(super) section: usize,
-    pub(super) index: u64,
-    pub(super) sampler: Sampler<'p>,
-    pub(super) from: RayOrigin,
-    /// Unit vector.
-    pub(super) direction: DVec3,
+    ray: PixelRay<'p>,
     beta: S,
     bounces: u32,
     gain: Gain,
@@ -46,15 +40,8 @@ enum Arrival<S> {
 }
 
 impl<'p, S: Spectrum> CameraPath<'p, S> {
-    pub(super) fn new(
-        section: usize,
-        index: u64,
-        sampler: Sampler<'p>,
-        from: RayOrigin,
-        direction: DVec3,
-    ) -> Self {
-        let beta = S::white();
-        Self { section, index, sampler, from, direction, beta, bounces: 0, gain: Gain::NONE }
+    pub(super) fn new(ray: PixelRay<'p>) -> Self {
+        Self { ray, beta: S::white(), bounces: 0, gain: Gain::NONE }
     }
 
     /// Takes paths to the surfaces that they see, and adds all that shines on the way: no other
@@ -73,7 +60,7 @@ impl<'p, S: Spectrum> CameraPath<'p, S> {
                 break;
             }
             queries.clear();
-            queries.extend(travelling.iter().map(|path| path.from.query(path.direction)));
+            queries.extend(travelling.iter().map(|path| path.ray.from.query(path.ray.direction)));
             engine.context.world.trace_all(&queries, &mut hits, &mut arrivals);
             work.rays += queries.len() as u64;
             let mut next = Vec::with_capacity(travelling.len());
@@ -82,7 +69,7 @@ impl<'p, S: Spectrum> CameraPath<'p, S> {
                     Arrival::Over => {}
                     Arrival::GoesOn => next.push(path),
                     Arrival::Sees(surface) => {
-                        let Self { section, index, sampler, .. } = path;
+                        let PixelRay { section, index, sampler, .. } = path.ray;
                         seen.push(Seen { section, index, sampler, surface });
                     }
                 }
@@ -103,36 +90,37 @@ impl<'p, S: Spectrum> CameraPath<'p, S> {
         let context = engine.context;
         let Some(at) = at else {
             if let Some(outside) = &context.lights.outside {
-                let cd_m2 =
-                    outside.luminance_cd_m2(self.direction) + outside.sun_cd_m2(self.direction);
-                found.add(self.section, self.bounces, self.beta * cd_m2);
+                let direction = self.ray.direction;
+                let cd_m2 = outside.luminance_cd_m2(direction) + outside.sun_cd_m2(direction);
+                found.add(self.ray.section, self.bounces, self.beta * cd_m2);
             }
             return Arrival::Over;
         };
         let emitted_cd_m2 = context.world.emitted_cd_m2(at);
         if emitted_cd_m2 != 0.0 {
-            found.add(self.section, self.bounces, self.beta * emitted_cd_m2);
+            found.add(self.ray.section, self.bounces, self.beta * emitted_cd_m2);
         }
         if context.max_bounces.is_some_and(|most| self.bounces >= most) {
             return Arrival::Over;
         }
-        let Surface { bsdf, frame, wo, .. } = Surface::new(&context.world, at, self.direction);
+        let Surface { bsdf, frame, wo, .. } = Surface::new(&context.world, at, self.ray.direction);
         if !engine.grow(&mut self.gain, at, wo, TransportMode::Radiance, self.bounces) {
             work.endless += 1;
             return Arrival::Over;
         }
         if !bsdf.is_specular() {
-            let &mut Self { direction, beta, bounces, gain, .. } = self;
+            let &mut Self { beta, bounces, gain, ref ray } = self;
+            let direction = ray.direction;
             return Arrival::Sees(FirstSurface { at: *at, direction, beta, bounces, gain });
         }
-        let next = bsdf.sample(wo, at.front, TransportMode::Radiance, &mut self.sampler);
+        let next = bsdf.sample(wo, at.front, TransportMode::Radiance, &mut self.ray.sampler);
         let Some(next) = next else { return Arrival::Over };
         // All that is found behind comes this way, so no weight hangs on who survives.
         let favour = self.beta.max_channel() / FAINT;
         let departure =
-            Departure::survive(&context.world, at, &frame, &next, favour, &mut self.sampler);
+            Departure::survive(&context.world, at, &frame, &next, favour, &mut self.ray.sampler);
         let Some(Departure { from, direction, factor }) = departure else { return Arrival::Over };
-        (self.from, self.direction) = (from, direction);
+        (self.ray.from, self.ray.direction) = (from, direction);
         self.beta = self.beta * factor;
         self.bounces += 1;
         Arrival::GoesOn

@@ -4,7 +4,7 @@
 use super::{PixelTracer, Spectrum};
 use crate::context::Stream;
 use crate::estimator::bidirectional::light_subpath::{KeptFlight, LightSubpaths};
-use crate::estimator::bidirectional::partner::partner;
+use crate::estimator::bidirectional::partner::partners;
 use crate::path::sections::WorkCounts;
 use quasilux_sampling::Sampler;
 use std::ops::Range;
@@ -33,23 +33,27 @@ pub(crate) struct PictureLight<S> {
     pub(crate) work: WorkCounts,
 }
 
+impl<S> PictureLight<S> {
+    /// The first subpath of an index, among those of all.
+    pub(super) fn first_of(&self, index: u64) -> usize {
+        ((index - self.indices.start) * SUBPATHS) as usize
+    }
+}
+
 impl<S: Spectrum> PixelTracer<'_, S> {
     /// Traces the light of some indices.
     pub(crate) fn light(&self, replicate: u32, indices: Range<u64>) -> PictureLight<S> {
         let Self { engine, merges, .. } = self;
         let mut flights: Vec<Vec<KeptFlight<S>>> = indices.clone().map(|_| Vec::new()).collect();
         let points = engine.context.points(replicate, Stream::PictureSubpaths);
-        let samplers = indices.clone().flat_map(|index| {
-            let own = partner(index) * SUBPATHS;
-            (own..own + SUBPATHS).map(|index| Sampler::new(&points, index))
-        });
+        let samplers = partners(&points, indices.clone(), SUBPATHS);
         let subpaths = LightSubpaths::trace(engine, samplers, |passing| {
             if *merges && !passing.is_computed_at_points() && !passing.is_hardly_found(engine) {
                 flights[passing.number / SUBPATHS as usize].push(KeptFlight::new(passing));
             }
         });
-        let mut work = WorkCounts { rays: subpaths.rays, ..WorkCounts::default() };
-        work.endless += subpaths.endless;
+        let (rays, endless) = (subpaths.rays, subpaths.endless);
+        let mut work = WorkCounts { rays, endless, ..WorkCounts::default() };
         if *merges {
             let points = engine.context.points(replicate, Stream::PicturePhotons);
             let each = self.open.photons;

@@ -46,27 +46,11 @@ pub(crate) struct PixelTracer<'a, S> {
     caps: PixelCaps,
 }
 
-/// Who gets what the paths of pixels find.
-pub(crate) trait PixelSink<S> {
-    /// Adds light in cd/m^2 to one of the pixels of a unit.
-    fn add(&mut self, pixel: usize, light: S);
-
-    /// The same of light that a photon brought.
-    fn add_merged(&mut self, pixel: usize, light: S);
-
+/// Who gets what the paths of pixels find, in cd/m^2; sections are the pixels of a unit.
+pub(crate) trait PixelSink<S>: Sink<S> {
     /// Tells that a path of a pixel came to a surface that scatters, where photons count on a disc
     /// of this area in m^2.
-    fn arrive(&mut self, pixel: usize, disc_m2: f64);
-}
-
-impl<S: Spectrum> Sink<S> for &mut dyn PixelSink<S> {
-    fn add(&mut self, section: usize, _bounces: u32, light: S) {
-        PixelSink::add(*self, section, light);
-    }
-
-    fn add_merged(&mut self, section: usize, _bounces: u32, light: S) {
-        PixelSink::add_merged(*self, section, light);
-    }
+    fn arrive(&mut self, section: usize, disc_m2: f64);
 }
 
 impl<'a, S: Spectrum> PixelTracer<'a, S> {

@@ -3,15 +3,13 @@
 use super::camera_paths::Seen;
 use super::light::SUBPATHS;
 use super::{DVec3, PixelTracer, Spectrum, World};
-use crate::estimator::bidirectional::asked_luminaires::nearest_luminaire_m;
 use crate::estimator::bidirectional::plan::{
-    Receiver, largest_disc_m2, largest_radius_m, near_part,
+    PhotonDisc, Receiver, around, largest_disc_m2, largest_radius_m, per_sure_before_pilots_m2,
 };
 use crate::path::sections::WorkCounts;
 use crate::stats::targets::Target;
 use crate::world::Interaction;
-use quasilux_bvh::Hit;
-use std::f64::consts::{PI, TAU};
+use quasilux_bvh::{Hit, RayQuery};
 
 /// Directions in which walls are looked for in the plane of a disc.
 const LOOKS: u32 = 16;
@@ -19,7 +17,6 @@ const LOOKS: u32 = 16;
 /// A place in the open, where so many photons of an index count that come from narrow surfaces; its
 /// rate of joins holds until pilots know more.
 pub(super) fn largest_receiver<S: Spectrum>(world: &World<S>, photons: Option<u64>) -> Receiver {
-    let all_m2: f64 = world.facets.iter().map(|facet| facet.area_m2()).sum();
     Receiver {
         target: Target::Point { position: DVec3::ZERO, normal: DVec3::Z },
         position: DVec3::ZERO,
@@ -30,7 +27,7 @@ pub(super) fn largest_receiver<S: Spectrum>(world: &World<S>, photons: Option<u6
         radiance_scale: 1.0,
         subpaths: SUBPATHS,
         photons: photons.unwrap_or(SUBPATHS),
-        per_sure_m2: 0.5 * all_m2.max(f64::MIN_POSITIVE) / TAU,
+        per_sure_m2: per_sure_before_pilots_m2(world),
         most_lx: f64::INFINITY,
     }
 }
@@ -70,30 +67,21 @@ impl<S: Spectrum> PixelTracer<'_, S> {
         let world = &context.world;
         let queries = places.iter().flat_map(|place| {
             let at = &place.seen.surface.at;
-            let across = at.n.any_orthonormal_vector();
-            let beside = at.n.cross(across);
             let from = world.ray_origin(at);
-            (0..LOOKS).map(move |look| {
-                let (sin, cos) = libm::sincos(TAU * f64::from(look) / f64::from(LOOKS));
-                from.query(across * cos + beside * sin)
-            })
+            around(at.n, LOOKS).map(move |direction| from.query(direction))
         });
-        let queries: Vec<_> = queries.collect();
+        let queries: Vec<RayQuery> = queries.collect();
         let (mut hits, mut met) = (Vec::<Option<Hit>>::new(), Vec::<Option<Interaction>>::new());
         world.trace_all(&queries, &mut hits, &mut met);
         work.rays += queries.len() as u64;
-        let luminaires = &context.lights.area_luminaires;
-        for (SeenPlace { receiver, .. }, met) in
-            places.iter_mut().zip(met.chunks_exact(LOOKS as usize))
-        {
+        for (place, met) in places.iter_mut().zip(met.chunks_exact(LOOKS as usize)) {
+            let receiver = &mut place.receiver;
             let distances_m = met.iter().flatten().map(|at| at.distance_m);
             let free_m = distances_m.fold(f64::INFINITY, f64::min);
-            let radius_m = largest_radius_m(world).min(free_m).max(world.hair_m());
-            let nearest_m = nearest_luminaire_m(luminaires, receiver.position, receiver.n)
-                .min(self.emitting.distance_m(receiver.position, receiver.n));
-            receiver.radius_m = Some(radius_m);
-            receiver.area_m2 = PI * radius_m * radius_m;
-            receiver.near_part = near_part(world, nearest_m, radius_m);
+            let (position, n) = (receiver.position, receiver.n);
+            let disc = PhotonDisc::new(context, &self.emitting, position, n, free_m);
+            receiver.radius_m = Some(disc.radius_m);
+            (receiver.area_m2, receiver.near_part) = (disc.area_m2, disc.near_part);
         }
     }
 }

@@ -4,16 +4,14 @@ use super::camera_paths::CameraPath;
 use super::discs::Discs;
 use super::light::{PictureLight, SUBPATHS};
 use super::receivers::SeenPlace;
-use super::{DVec3, PixelSink, PixelTracer, Spectrum, World};
-use crate::context::Stream;
+use super::{DVec3, PixelSink, PixelTracer, Spectrum};
 use crate::estimator::bidirectional::eye_path::{EyePaths, Sink, Start};
 use crate::estimator::bidirectional::joins::{JoinWork, Joiner};
 use crate::estimator::bidirectional::plan::connected;
+use crate::path::pixel_rays::PixelRays;
 use crate::path::sections::WorkCounts;
 use crate::path::wave::WAVE;
 use crate::world::vertex::{Surface, Vertex};
-use quasilux_sampling::{PointSet, Sampler};
-use quasilux_scene::View;
 
 /// Joins of a light subpath to what a path sees, on average.
 const JOINED: f64 = 0.125;
@@ -24,11 +22,7 @@ const ASKED_TOGETHER: usize = 64;
 
 /// Some pixels of a camera with some indices in one replicate.
 pub(crate) struct PixelUnit<'u, S> {
-    /// Number of the camera.
-    pub(crate) camera: u32,
-    pub(crate) view: &'u View,
-    /// Pixels in a row of the picture.
-    pub(crate) width: usize,
+    pub(crate) rays: &'u PixelRays,
     /// Numbers of the pixels in the picture.
     pub(crate) pixels: &'u [usize],
     pub(crate) replicate: u32,
@@ -36,26 +30,6 @@ pub(crate) struct PixelUnit<'u, S> {
     pub(crate) per_sure_m2: f64,
     /// Of its indices.
     pub(crate) light: &'u PictureLight<S>,
-}
-
-impl<S: Spectrum> PixelUnit<'_, S> {
-    /// Paths through the places of the pixels that their first two coordinates give.
-    fn camera_paths<'p>(&self, world: &World<S>, points: &'p [PointSet]) -> Vec<CameraPath<'p, S>> {
-        let path = |(section, index): (usize, u64)| {
-            let mut sampler = Sampler::new(&points[section], index);
-            let [u, v] = sampler.next_2d();
-            let pixel = self.pixels[section];
-            let (x, y) = ((pixel % self.width) as f64, (pixel / self.width) as f64);
-            let direction = self.view.direction([x + u, y + v]);
-            let from = world.ray_origin_of_sensor(self.view.position, direction);
-            CameraPath::new(section, index, sampler, from, direction)
-        };
-        let sections = 0..self.pixels.len();
-        sections
-            .flat_map(|it| self.light.indices.clone().map(move |index| (it, index)))
-            .map(path)
-            .collect()
-    }
 }
 
 impl<S: Spectrum> PixelTracer<'_, S> {
@@ -80,34 +54,34 @@ impl<S: Spectrum> PixelTracer<'_, S> {
     pub(crate) fn trace(
         &self,
         unit: &PixelUnit<'_, S>,
-        mut found: &mut dyn PixelSink<S>,
+        found: &mut impl PixelSink<S>,
     ) -> WorkCounts {
         let context = self.engine.context;
         let mut work = WorkCounts::default();
-        let stream = |pixel: usize| Stream::Pixel { camera: unit.camera, pixel: pixel as u32 };
-        let points: Vec<PointSet> =
-            unit.pixels.iter().map(|it| context.points(unit.replicate, stream(*it))).collect();
-        let starts = unit.camera_paths(&context.world, &points);
-        let seen = CameraPath::trace_all(&self.engine, starts, &mut found, &mut work);
+        let PixelUnit { rays, pixels, replicate, light, .. } = unit;
+        let points = rays.points(context, *replicate, pixels);
+        let rays = rays.through(&context.world, pixels, &points, light.indices.clone());
+        let starts = rays.into_iter().map(CameraPath::new).collect();
+        let seen = CameraPath::trace_all(&self.engine, starts, found, &mut work);
         let places = self.places(unit.per_sure_m2, seen, &mut work);
         for SeenPlace { seen, receiver } in &places {
             found.arrive(seen.section, receiver.area_m2);
         }
         if self.merges {
-            for (index, flights) in unit.light.indices.clone().zip(&unit.light.flights) {
+            for (index, flights) in light.indices.clone().zip(&light.flights) {
                 let own = places.iter().filter(|it| it.seen.index == index);
-                Discs::new(&self.engine, own).cross_all(&self.engine, flights, &mut found);
+                Discs::new(&self.engine, own).cross_all(&self.engine, flights, found);
             }
         }
-        work.rays += self.join(unit, &places, &mut found);
-        work += self.gather(unit, &places, &mut found);
+        work.rays += self.join(light, &places, found);
+        work += self.gather(unit, &places, found);
         work
     }
 
     /// Joins light vertices to what is seen; the number of rays.
     fn join(
         &self,
-        unit: &PixelUnit<'_, S>,
+        light: &PictureLight<S>,
         places: &[SeenPlace<'_, S>],
         found: &mut dyn Sink<S>,
     ) -> u64 {
@@ -125,10 +99,10 @@ impl<S: Spectrum> PixelTracer<'_, S> {
                 next: seen.sampler.child(JOINS).next_1d(),
             };
             work.shadows.max_bounces = left;
-            let place = (seen.index - unit.light.indices.start) as usize * SUBPATHS as usize;
-            let light = &unit.light.subpaths;
-            let numbers = light.numbers_of(place..place + SUBPATHS as usize);
-            joiner.join(&self.engine, seen.section as u32, light, numbers, &mut work);
+            let first = light.first_of(seen.index);
+            let numbers = light.subpaths.numbers_of(first..first + SUBPATHS as usize);
+            let who = seen.section as u32;
+            joiner.join(&self.engine, who, &light.subpaths, numbers, &mut work);
             let asked = number + 1;
             if asked % ASKED_TOGETHER == 0 || asked == places.len() {
                 work.shadows.answer(world, |who, light: S, bounces| {
@@ -149,13 +123,13 @@ impl<S: Spectrum> PixelTracer<'_, S> {
         let mut paths = EyePaths::default();
         for places in places.chunks(WAVE as usize) {
             let starts = places.iter().map(|SeenPlace { seen, receiver }| {
-                let place = seen.index - unit.light.indices.start;
                 let pixel = unit.pixels[seen.section];
+                let own = connected(pixel, seen.index, SUBPATHS) as usize;
                 Start {
                     section: seen.section,
                     receiver,
                     light: &unit.light.subpaths,
-                    subpath: (place * SUBPATHS + connected(pixel, seen.index, SUBPATHS)) as usize,
+                    subpath: unit.light.first_of(seen.index) + own,
                     sampler: seen.sampler.clone(),
                     surface: Some(&seen.surface),
                 }
