@@ -8,7 +8,7 @@
 use crate::cameras::camera;
 use crate::dozen_scenes;
 use crate::images::add_panel;
-use crate::materials::add_box;
+use crate::materials::{add_box, conductor, translucent};
 use crate::scenes::{diffuse, mirror, point_light, room};
 use glam::DVec3;
 use quasilux_scene::bsdf::Diffuse;
@@ -105,6 +105,17 @@ fn rooms_where_nothing_scatters_have_pictures() {
         luminance_cd_m2: 50.0,
     }));
     assert_twins_agree("mirrors", &scene, None);
+}
+
+/// Of light that rough metal sends to the back of a sheet, photons and paths that go through it
+/// share what they find: nothing is joined to a surface from behind.
+#[test]
+fn sheets_are_lit_from_behind() {
+    let mut scene = room(DVec3::new(4.0, 3.0, 2.5), conductor(0.9, 0.2));
+    let (corner, sheet) = (DVec3::new(2.0, 0.0, 0.0), translucent(0.2, 0.6));
+    add_panel(&mut scene, corner, DVec3::Y * 3.0, DVec3::Z * 2.5, sheet);
+    scene.lights.push(point_light(DVec3::new(3.2, 1.4, 1.2), 100.0));
+    assert_twins_agree("sheet", &scene, None);
 }
 
 /// Seeds of the test of intervals.

@@ -43,7 +43,9 @@ impl<'s, 'p, S: Spectrum> Discs<'s, 'p, S> {
             add(receiver.clone());
             if world.bsdf(at).transmits() {
                 let position = world.ray_origin_behind(at).position();
-                add(Receiver { position, n: -receiver.n, ..receiver.clone() });
+                // Light vertices are joined to its front alone.
+                let (n, per_sure_m2) = (-receiver.n, 0.0);
+                add(Receiver { position, n, per_sure_m2, ..receiver.clone() });
             }
         }
         Self { boxes: BoxTree::new(&corners), discs }
