@@ -75,10 +75,11 @@ const RENAMED: [[&str; 2]; 3] = [
     ["--checkpoint-every", "checkpoint_every_s"],
 ];
 /// The others, which have underscores instead of dashes.
-const OPTIONS: [&str; 11] = [
+const OPTIONS: [&str; 12] = [
     "--rel-tol",
     "--unseen-tol",
     "--tolerance-on",
+    "--interval",
     "--confidence",
     "--samples",
     "--rays",

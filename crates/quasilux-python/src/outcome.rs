@@ -4,7 +4,7 @@ use crate::arrays::read_only;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use quasilux::embedded::{self, CliError, Finished, Project, Stopped};
-use quasilux_report::{CameraReport, SensorReport, Style, json, number, table};
+use quasilux_report::{CameraReport, CertifiedFigure, SensorReport, Style, json, number, table};
 use quasilux_scene::{Grid, Quantity};
 use quasilux_transport::{Estimates, Pixel, SensorEstimates};
 use serde::Serialize;
@@ -113,6 +113,11 @@ impl Outcome {
         put("half_width_lx", lx.collect(), &shape)?;
         put("direct_lx", points().map(|point| or_nan(point.direct_lx)).collect(), &shape)?;
         put("unseen_lx", unseen_lx(&self.finished.estimates, index), &shape)?;
+        let certified = |limit: fn(CertifiedFigure) -> f64| -> Vec<f64> {
+            points().map(|point| point.certified_lx.map_or(f64::NAN, limit)).collect()
+        };
+        put("certified_lower_lx", certified(|it| it.lower), &shape)?;
+        put("certified_upper_lx", certified(|it| it.upper.unwrap_or(f64::INFINITY)), &shape)?;
         let lx = points().map(|point| or_nan(point.unseen.merged_lx));
         put("merged_lx", lx.collect(), &shape)?;
         let radii_m = points().map(|point| or_nan(point.unseen.disc_radius_m));

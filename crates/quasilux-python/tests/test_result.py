@@ -134,6 +134,21 @@ def test_estimators_without_a_bound_say_nothing_of_what_is_unseen() -> None:
     assert len(photons.cannot_see) == 1 and photons.settings["unseen_tol"] == 0.05
 
 
+def test_certified_limits_are_there_where_they_are_asked_for() -> None:
+    plain = quasilux.simulate(room(), samples=16)
+    assert np.isnan(plain["desk"].certified_lower_lx).all()
+    assert math.isnan(plain["desk"].average.certified_lower_lx)
+    both = quasilux.simulate(room(), samples=16, interval="certified", sequence="random")
+    desk = both["desk"]
+    assert (desk.certified_lower_lx < desk.illuminance_lx).all()
+    assert (desk.certified_upper_lx > desk.illuminance_lx).all()
+    assert desk.average.certified_lower_lx < desk.average.value < desk.average.certified_upper_lx
+    assert both.settings["interval"] == "certified"
+    lower = quasilux.simulate(room(), samples=16, interval="certified")["desk"]
+    assert (lower.certified_lower_lx > 0).all() and np.isinf(lower.certified_upper_lx).all()
+    assert math.isnan(lower.average.certified_upper_lx)
+
+
 def test_values_that_are_unknown_are_not_numbers() -> None:
     few = quasilux.simulate(room(), samples=1, estimator="photon")
     desk = few["desk"]

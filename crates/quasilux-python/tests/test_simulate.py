@@ -113,6 +113,8 @@ FEW_IN_PROJECT = {"rel_tol": "5%", "seed": 1, "map_elements": 4194304}
         ({"estimator": "pat"}, 'estimator is "pat"; expected one of auto, .* did you mean "path"'),
         ({"sequence": "hammersley"}, "^sequence: hammersley must know .* give samples"),
         ({"tolerance_on": "all"}, "^tolerance_on is"),
+        ({"interval": "sure"}, "^interval is"),
+        ({"interval": "certified", "estimator": "path"}, 'interval = "certified" is for'),
         ({"sequence": "hammersley", "samples": 64, "time_s": 1.0}, "time_s cannot end it before"),
         ({"checkpoint": "/"}, "is a folder, expected a file"),
         ({"checkpoint": "x", "checkpoint_every_s": 0.0}, "^checkpoint_every_s is"),

@@ -116,6 +116,7 @@ pub(crate) fn bounded() -> (Scene, Estimates) {
         average_lx: 0.4,
         merged_lx: vec![0.5, 0.0, 0.0],
         disc_radius_m: vec![Some(0.1), None, Some(0.1)],
+        ..UnseenLight::unknown(3)
     });
     estimates.cannot_see = ["lamp, glass body, point", "sun, mirror, point"].map(Into::into).into();
     (scene, estimates)

@@ -12,6 +12,7 @@ pub(crate) mod example;
 
 pub mod annual;
 pub mod camera;
+mod certified;
 pub mod csv;
 mod figure;
 pub mod json;
@@ -24,6 +25,7 @@ pub mod table;
 mod unseen;
 
 pub use camera::{CameraFiles, CameraReport};
+pub use certified::CertifiedFigure;
 pub use figure::Figure;
 pub use outside::{DaylightFactor, DaylightFactorComponents, Outside};
 pub use picture::{PictureOf, camera_false_colour_png, exr, false_colour_png, tone_mapped_png};

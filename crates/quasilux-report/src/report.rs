@@ -5,6 +5,7 @@
 //! a warning says so.
 
 use crate::CameraReport;
+use crate::certified::{self, CertifiedFigure, CertifiedFigures};
 use crate::figure::{Figure, finite};
 use crate::outside::{DaylightFactor, Outside};
 use crate::unseen::{self, PointUnseen, SummaryUnseen};
@@ -108,6 +109,8 @@ pub struct PointReport {
     pub direct_lx: Option<f64>,
     /// What its samples leave open.
     pub unseen: PointUnseen,
+    /// Limits that hold for any number of samples, where they were asked for.
+    pub certified_lx: Option<CertifiedFigure>,
     /// The share of the light outside, where only the sky shines.
     pub daylight_factor: Option<DaylightFactor>,
     /// Indices used by each replicate for this point.
@@ -127,6 +130,8 @@ pub struct Summary {
     pub uniformity: Figure,
     /// What the samples leave open; `None` of estimators without a bound.
     pub unseen: Option<SummaryUnseen>,
+    /// Limits of the average that hold for any number of samples, where they were asked for.
+    pub certified_average_lx: Option<CertifiedFigure>,
 }
 
 /// How the results were made.
@@ -188,8 +193,9 @@ impl Report {
     pub fn new(scene: &Scene, settings: &Settings, estimates: &Estimates, facts: RunFacts) -> Self {
         assert_eq!(scene.sensors.len(), estimates.sensors.len(), "estimates of another scene");
         let outside = Outside::new(scene);
-        let mut sensors: Vec<SensorReport> =
-            (0..scene.sensors.len()).map(|s| SensorReport::new(scene, estimates, s)).collect();
+        let mut sensors: Vec<SensorReport> = (0..scene.sensors.len())
+            .map(|s| SensorReport::new(scene, estimates, s, settings))
+            .collect();
         add_daylight_factors(&mut sensors, outside, facts.daylight.as_deref());
         assert_eq!(scene.cameras.len(), estimates.cameras.len(), "estimates of another scene");
         let cameras =
@@ -205,6 +211,7 @@ impl Report {
         }
         warnings.extend(sensors.iter().filter_map(SensorReport::missing_figures));
         warnings.extend(unseen::warnings(scene, estimates, settings));
+        warnings.extend(certified::warnings(scene, estimates, settings));
         Self {
             sensors,
             cameras,
@@ -267,8 +274,9 @@ impl Run {
 }
 
 impl SensorReport {
-    fn new(scene: &Scene, estimates: &Estimates, index: usize) -> Self {
+    fn new(scene: &Scene, estimates: &Estimates, index: usize, settings: &Settings) -> Self {
         let sensor = &scene.sensors[index];
+        let certified = CertifiedFigures::new(estimates, index, settings);
         let intervals = estimates.point_intervals(index);
         let SensorEstimates { direct_lx, samples, unseen, .. } = &estimates.sensors[index];
         let points = sensor
@@ -281,6 +289,7 @@ impl SensorReport {
                 illuminance_lx: intervals.get(i).map(|&x| x.into()).unwrap_or_default(),
                 direct_lx: direct_lx.get(i).and_then(|&x| finite(x)),
                 unseen: unseen.as_ref().map(|own| PointUnseen::new(own, i)).unwrap_or_default(),
+                certified_lx: certified.points.as_ref().and_then(|all| all.get(i).copied()),
                 daylight_factor: None,
                 samples: samples.get(i).copied().unwrap_or_default(),
             })
@@ -298,6 +307,7 @@ impl SensorReport {
                 maximum_lx: estimates.maximum(index).into(),
                 uniformity: estimates.uniformity(index).into(),
                 unseen: SummaryUnseen::new(estimates, index),
+                certified_average_lx: certified.average,
             },
             terms: TermReport::all(estimates, index),
         }

@@ -1,5 +1,6 @@
 //! The table on the terminal: one line a sensor or camera, each figure with its interval.
 
+mod certified;
 mod convergence;
 mod explanation;
 mod flux;
@@ -96,6 +97,9 @@ fn sensors(report: &Report, style: Style) -> String {
     ];
     if let Some(cells) = unseen::column(report) {
         columns.insert(3, Column::left("unseen", cells));
+    }
+    if let Some(cells) = certified::column(report) {
+        columns.insert(columns.len().min(4), Column::left("certified", cells));
     }
     if !factors.is_empty() {
         columns.push(Column::figures("daylight factor", " %", factors.into_iter()));

@@ -65,7 +65,10 @@ pub use run::memory::MemoryNeed;
 pub use run::parts::{MergeError, decide, merge, trace_part};
 pub use run::simulate::{is_over, resume, simulate, simulate_with_workers};
 pub use run::trial;
-pub use settings::{EstimatorKind, Reconstruction, Settings, Switch, ToleranceOn, UnseenTolerance};
+pub use settings::{
+    EstimatorKind, IntervalKind, Reconstruction, Settings, Switch, ToleranceOn, UnseenTolerance,
+};
+pub use stats::certified::{self, CertifiedInterval, IndexTotals};
 pub use stats::convergence;
 pub use stats::decisions::Decisions;
 pub use stats::estimates::{

@@ -100,6 +100,31 @@ impl ToleranceOn {
     }
 }
 
+/// Which intervals are reported beside values: a closed set.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum IntervalKind {
+    /// Student's t over replicates, which decides when a run ends.
+    #[default]
+    StudentT,
+    /// The same, and limits that hold for any number of samples ([`crate::certified`]).
+    Certified,
+}
+
+impl IntervalKind {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::StudentT, Self::Certified];
+
+    /// The name in project files, on the command line and in results.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::StudentT => "student-t",
+            Self::Certified => "certified",
+        }
+    }
+}
+
 /// How much light that no sample met a value may be done with: a closed set.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum UnseenTolerance {
@@ -199,6 +224,8 @@ pub struct Settings {
     pub unseen_tol: UnseenTolerance,
     /// What has to reach the tolerances.
     pub tolerance_on: ToleranceOn,
+    /// Which intervals are reported.
+    pub interval: IntervalKind,
     /// Confidence level of all intervals, in (0, 1).
     pub confidence: f64,
     /// Number of independent randomisations; 1 leaves results without intervals.
@@ -294,6 +321,7 @@ impl Default for Settings {
             abs_tol_lx: 0.0,
             unseen_tol: UnseenTolerance::default(),
             tolerance_on: ToleranceOn::Points,
+            interval: IntervalKind::StudentT,
             confidence: 0.95,
             replicates: 16,
             seed: 1,
@@ -355,6 +383,7 @@ mod tests {
             abs_tol_lx: 0.7,
             unseen_tol: UnseenTolerance::Off,
             tolerance_on: ToleranceOn::Summary,
+            interval: IntervalKind::Certified,
             confidence: 0.99,
             max_rays: Some(1 << 60),
             map_element_m: Some(1.0 / 3.0),
@@ -378,6 +407,7 @@ mod tests {
     fn documents_have_the_names_that_users_write() {
         assert!(EstimatorKind::ALL.into_iter().all(|it| to_value(it).unwrap() == it.name()));
         assert!(Switch::ALL.into_iter().all(|it| to_value(it).unwrap() == it.name()));
+        assert!(IntervalKind::ALL.into_iter().all(|it| to_value(it).unwrap() == it.name()));
         assert!(ToleranceOn::ALL.into_iter().all(|it| to_value(it).unwrap() == it.name()));
         assert!(Reconstruction::ALL.into_iter().all(|it| to_value(it).unwrap() == it.name()));
         for randomization in Randomization::ALL {

@@ -26,7 +26,7 @@ use clap::{Args, CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
 use quasilux_experiments::{EXPERIMENTS, Experiment};
 use quasilux_sampling::Sequence;
-use quasilux_transport::{EstimatorKind, ToleranceOn, UnseenTolerance};
+use quasilux_transport::{EstimatorKind, IntervalKind, ToleranceOn, UnseenTolerance};
 use std::path::PathBuf;
 use std::time::Duration;
 use values::{duration, illuminance, level, one_of, share, unseen_tolerance, whole};
@@ -97,9 +97,8 @@ pub(crate) struct RunArguments {
     pub(crate) simulation: SimulationArguments,
     /// Do what a plan says, in one part: the same bits as its parts put together
     #[arg(long, value_name = "FILE", conflicts_with_all = [
-        "rel_tol", "abs_tol", "unseen_tol", "tolerance_on", "confidence", "time", "samples", "rays",
-        "estimator", "sequence",
-        "seed", "checkpoint", "explain",
+        "rel_tol", "abs_tol", "unseen_tol", "tolerance_on", "interval", "confidence", "time",
+        "samples", "rays", "estimator", "sequence", "seed", "checkpoint", "explain",
     ])]
     pub(crate) plan: Option<PathBuf>,
     #[command(flatten)]
@@ -157,6 +156,10 @@ pub(crate) struct SimulationArguments {
     /// What has to reach the tolerance: every sensor point, or the average of every sensor
     #[arg(long, value_name = "NAME", value_parser = one_of(&ToleranceOn::ALL, ToleranceOn::name))]
     pub(crate) tolerance_on: Option<String>,
+    /// Which intervals are reported: Student's t, or also limits that hold for any number of
+    /// samples [default: the project's, or else student-t]
+    #[arg(long, value_name = "NAME", value_parser = one_of(&IntervalKind::ALL, IntervalKind::name))]
+    pub(crate) interval: Option<String>,
     /// Confidence level of the intervals, like 95% or 0.99
     #[arg(long, value_name = "SHARE", value_parser = level)]
     pub(crate) confidence: Option<f64>,

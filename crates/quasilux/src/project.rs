@@ -10,7 +10,7 @@ use crate::source::{Identified, Source};
 use quasilux_sampling::{Randomization, Sequence};
 use quasilux_scene::{Environment, LoadError, Loaded, SimulationSection, SkyFacts, Spanned};
 use quasilux_transport::{
-    EstimatorKind, Reconstruction, Settings, Switch, ToleranceOn, UnseenTolerance,
+    EstimatorKind, IntervalKind, Reconstruction, Settings, Switch, ToleranceOn, UnseenTolerance,
 };
 use std::path::Path;
 
@@ -169,6 +169,8 @@ fn names_in_section(
     take(&mut to.randomization, from, name, "randomization", all, Randomization::name)?;
     let (name, all) = (&from.tolerance_on, &ToleranceOn::ALL);
     take(&mut to.tolerance_on, from, name, "tolerance_on", all, ToleranceOn::name)?;
+    let (name, all) = (&from.interval, &IntervalKind::ALL);
+    take(&mut to.interval, from, name, "interval", all, IntervalKind::name)?;
     let (name, all) = (&from.map_reconstruction, &Reconstruction::ALL);
     take(&mut to.map_reconstruction, from, name, "reconstruction", all, Reconstruction::name)?;
     let take_switch =
@@ -219,6 +221,10 @@ fn take_arguments(
         let all = &ToleranceOn::ALL;
         settings.tolerance_on =
             names::on_command_line("--tolerance-on", name, all, ToleranceOn::name)?;
+    }
+    if let Some(name) = &arguments.interval {
+        let all = &IntervalKind::ALL;
+        settings.interval = names::on_command_line("--interval", name, all, IntervalKind::name)?;
     }
     settings.rel_tol = arguments.rel_tol.unwrap_or(settings.rel_tol);
     settings.abs_tol_lx = arguments.abs_tol.unwrap_or(settings.abs_tol_lx);

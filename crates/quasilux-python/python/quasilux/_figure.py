@@ -14,7 +14,7 @@ class Figure:
     """A value and half the width of its confidence interval.
 
     It can stand where a number is wanted, and prints with the digits that its interval leaves it.
-    Figures are equal where all three of their numbers are, or are not numbers in both.
+    Figures are equal where all of their numbers are, or are not numbers in both.
 
     Attributes
     ----------
@@ -25,6 +25,9 @@ class Figure:
         interval.
     unseen_lx : float
         Light in lx at most that no sample met; not a number where nothing bounds it.
+    certified_lower_lx, certified_upper_lx : float
+        Limits in lx that hold for any number of samples; not numbers where they were not asked
+        for, or nothing certain is known.
 
     Examples
     --------
@@ -38,10 +41,14 @@ class Figure:
     value: float
     half_width: float
     unseen_lx: float = math.nan
+    certified_lower_lx: float = math.nan
+    certified_upper_lx: float = math.nan
 
     @classmethod
     def _from_entry(cls, entry: dict[str, Any]) -> Figure:
-        known = (entry["value"], entry["half_width"], entry.get("unseen_lx"))
+        certified = entry.get("certified_lx", {})
+        limits = (certified.get("lower"), certified.get("upper"))
+        known = (entry["value"], entry["half_width"], entry.get("unseen_lx"), *limits)
         return cls(*(math.nan if x is None else x for x in known))
 
     def _numbers(self) -> tuple[float | None, ...]:

@@ -32,6 +32,7 @@ class Options:
         abs_tol_lx: float | None,
         unseen_tol: float | str | None,
         tolerance_on: str | None,
+        interval: str | None,
         confidence: float | str | None,
         samples: int | None,
         rays: int | None,
@@ -45,6 +46,7 @@ class Options:
         self.number("abs-tol", "abs_tol_lx", abs_tol_lx)
         self.share("unseen-tol", "unseen_tol", unseen_tol)
         self.name("tolerance-on", "tolerance_on", tolerance_on)
+        self.name("interval", "interval", interval)
         self.share("confidence", "confidence", confidence)
         self.whole("samples", "samples", samples)
         self.whole("rays", "rays", rays)

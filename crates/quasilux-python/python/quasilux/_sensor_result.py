@@ -123,6 +123,22 @@ class SensorResult:
         return self._arrays["unseen_lx"]
 
     @property
+    def certified_lower_lx(self) -> Floats:
+        """What the illuminance is at least, certified, in lx, shape (v, u) or (n,).
+
+        Not a number where it was not asked for.
+        """
+        return self._arrays["certified_lower_lx"]
+
+    @property
+    def certified_upper_lx(self) -> Floats:
+        """What the illuminance is at most, certified, in lx, shape (v, u) or (n,).
+
+        Infinite where nothing certain is known; not a number where it was not asked for.
+        """
+        return self._arrays["certified_upper_lx"]
+
+    @property
     def merged_lx(self) -> Floats:
         """What of the illuminance is known as a mean over a disc, in lx, shape (v, u) or (n,).
 

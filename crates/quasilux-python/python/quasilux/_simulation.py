@@ -28,6 +28,7 @@ def simulate(
     abs_tol_lx: float | None = None,
     unseen_tol: float | str | None = None,
     tolerance_on: Literal["points", "summary"] | None = None,
+    interval: Literal["student-t", "certified"] | None = None,
     confidence: float | str | None = None,
     samples: int | None = None,
     rays: int | None = None,
@@ -60,6 +61,9 @@ def simulate(
         estimators that bound it; ``"off"`` does not wait for it. No less than `rel_tol` is asked.
     tolerance_on : {"points", "summary"}, optional
         What has to reach the tolerance: every sensor point, or the average of every sensor.
+    interval : {"student-t", "certified"}, optional
+        Which intervals are reported: Student's t, or also limits that hold for any number of
+        samples.
     confidence : float or str, optional
         Confidence level of the intervals, as in 0.95.
     samples : int, optional
@@ -125,6 +129,7 @@ def simulate(
         abs_tol_lx=abs_tol_lx,
         unseen_tol=unseen_tol,
         tolerance_on=tolerance_on,
+        interval=interval,
         confidence=confidence,
         samples=samples,
         rays=rays,

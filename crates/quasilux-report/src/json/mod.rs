@@ -15,21 +15,22 @@
 //! estimators without a bound and where nothing is known: `unseen_lx`, the light at most that no
 //! sample met, with `unseen_confidence`, `merged_lx`, the part of the value that is known as a mean
 //! over a disc of `disc_radius_m` around the point; `unseen_tol` is a share or "off", and
-//! `cannot_see` has the classes of light paths that the estimator cannot make. Then `decisions`,
-//! what pilots made of the settings (photons connected for each path (`connected_photons`), whether
-//! photons follow `importance` and leave lit places, sides of elements of the map that paths end
-//! on, photons for each path that look for light which paths cannot find; `null` where there are
-//! none), `prediction` (see `prediction.rs`), `flux_cut_lm`, the flux that `max_bounces` cut, and
-//! `dimension_counts`: how many photons and paths used 0, 1, 2, .. coordinates, in one list each,
-//! all of more than 1023 together at its end, `photons`, how many began in all, `null` where none
-//! did, and `mean_events`, surfaces that a `photon` came to on average. A point that reached its
-//! tolerance before others has its own number of `samples`. Where the sky shines, `outside` has its
-//! horizontal illuminance, and where nothing else does each point its `daylight_factor`, a share;
-//! beside openings in its parts, `sky_component`, `externally_reflected_component` and
-//! `internally_reflected_component`, the first two with what no path met of each at most
-//! (`components_unseen`). Where it was asked for, `explain` says which coordinates carry the
-//! variance. `findings` are what is probably wrong with the scene, each with the `check` that found
-//! it, place and `cure`; `warnings` have them as text, too.
+//! `cannot_see` has the classes of light paths that the estimator cannot make. Where they were
+//! asked for, points and averages have `certified_lx`, limits that hold for any number of samples.
+//! Then `decisions`, what pilots made of the settings (photons connected for each path
+//! (`connected_photons`), whether photons follow `importance` and leave lit places, sides of
+//! elements of the map that paths end on, photons for each path that look for light which paths
+//! cannot find; `null` where there are none), `prediction` (see `prediction.rs`), `flux_cut_lm`,
+//! the flux that `max_bounces` cut, and `dimension_counts`: how many photons and paths used 0, 1,
+//! 2, .. coordinates, in one list each, all of more than 1023 together at its end, `photons`, how
+//! many began in all, `null` where none did, and `mean_events`, surfaces that a `photon` came to on
+//! average. A point that reached its tolerance before others has its own number of `samples`. Where
+//! the sky shines, `outside` has its horizontal illuminance, and where nothing else does each point
+//! its `daylight_factor`, a share; beside openings in its parts, `sky_component`,
+//! `externally_reflected_component` and `internally_reflected_component`, the first two with what
+//! no path met of each at most (`components_unseen`). Where it was asked for, `explain` says which
+//! coordinates carry the variance. `findings` are what is probably wrong with the scene, each with
+//! the `check` that found it, place and `cure`; `warnings` have them as text, too.
 
 mod camera;
 mod explanation;
@@ -40,7 +41,7 @@ mod terms;
 mod unseen;
 
 use crate::outside::DaylightColumn;
-use crate::{DaylightFactor, Figure, Outside, Report, Run, SensorReport};
+use crate::{CertifiedFigure, DaylightFactor, Figure, Outside, Report, Run, SensorReport};
 pub use finding::FindingEntry;
 
 use camera::CameraEntry;
@@ -111,6 +112,8 @@ struct PointEntry {
     direct_lx: Option<f64>,
     #[serde(flatten)]
     unseen: UnseenEntry,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    certified_lx: Option<CertifiedFigure>,
     #[serde(flatten)]
     daylight: Map<String, Value>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -260,6 +263,7 @@ impl PointEntry {
             half_width_lx: point.illuminance_lx.half_width,
             direct_lx: point.direct_lx,
             unseen: UnseenEntry::new(point.unseen),
+            certified_lx: point.certified_lx,
             daylight: point.daylight_factor.map(daylight).unwrap_or_default(),
             samples: Some(point.samples).filter(|samples| *samples != report.run.samples),
             terms_lx: TermEntry::all(&sensor.terms, |term| term.points_lx[number]),
@@ -299,7 +303,8 @@ impl SummaryEntry {
         let unseen = summary.unseen.unwrap_or_default();
         let entry = BoundedEntry::new;
         Self {
-            average_lx: entry(summary.average_lx, unseen.average_lx),
+            average_lx: entry(summary.average_lx, unseen.average_lx)
+                .with_certified(summary.certified_average_lx),
             minimum_lx: entry(summary.minimum_lx, unseen.minimum_lx),
             maximum_lx: entry(summary.maximum_lx, unseen.maximum_lx),
             uniformity: FigureEntry::new(summary.uniformity),

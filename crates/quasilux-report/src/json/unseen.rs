@@ -1,7 +1,7 @@
 //! What the samples of a value leave open.
 
 use super::FigureEntry;
-use crate::{Figure, PointUnseen};
+use crate::{CertifiedFigure, Figure, PointUnseen};
 use serde::Serialize;
 
 /// Beside the value at a point.
@@ -18,6 +18,8 @@ pub(super) struct BoundedEntry {
     #[serde(flatten)]
     figure: FigureEntry,
     unseen_lx: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    certified_lx: Option<CertifiedFigure>,
 }
 
 impl UnseenEntry {
@@ -29,7 +31,11 @@ impl UnseenEntry {
 
 impl BoundedEntry {
     pub(super) fn new(figure: Figure, unseen_lx: Option<f64>) -> Self {
-        Self { figure: FigureEntry::new(figure), unseen_lx }
+        Self { figure: FigureEntry::new(figure), unseen_lx, certified_lx: None }
+    }
+
+    pub(super) fn with_certified(self, certified_lx: Option<CertifiedFigure>) -> Self {
+        Self { certified_lx, ..self }
     }
 }
 

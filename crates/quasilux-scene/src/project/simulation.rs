@@ -8,7 +8,7 @@ use super::renamed::REFUSED_KEYS;
 use crate::{LoadError, Spanned};
 use std::ops::RangeInclusive;
 
-const KEYS: [&str; 21] = [
+const KEYS: [&str; 22] = [
     "estimator",
     "sequence",
     "randomization",
@@ -16,6 +16,7 @@ const KEYS: [&str; 21] = [
     "abs_tol",
     "unseen_tol",
     "tolerance_on",
+    "interval",
     "confidence",
     "replicates",
     "seed",
@@ -66,6 +67,8 @@ pub struct SimulationSection {
     pub unseen_tol: Option<Spanned<Option<f64>>>,
     /// Name of what has to reach the tolerance.
     pub tolerance_on: Option<Spanned<String>>,
+    /// Name of the intervals that are reported.
+    pub interval: Option<Spanned<String>>,
     /// Confidence level in (0, 1).
     pub confidence: Option<Spanned<f64>>,
     /// Number of independent randomisations, at least 1.
@@ -134,6 +137,7 @@ pub(super) fn read(file: &str, root: &Section<'_>) -> Result<SimulationSection, 
         abs_tol_lx: number("abs_tol", "an illuminance in lx above 0", |x| x > 0.0)?,
         unseen_tol: spanned(&section, "unseen_tol", |value| unseen_tolerance(&value))?,
         tolerance_on: name("tolerance_on")?,
+        interval: name("interval")?,
         confidence: number("confidence", "a share between 0 and 1, such as 0.95", |x| {
             x > 0.0 && x < 1.0
         })?,

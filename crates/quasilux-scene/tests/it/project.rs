@@ -151,7 +151,8 @@ fn simulation_values_keep_their_places() {
            map_elements = 5\nmap_adaptive = false\nmap_reconstruction = \"linear\"\n\
            map_photons = 9\nmap_dimensions = 7\nimage_depth = 3\n\
            importance = \"on\"\nfirst_shot = \"off\"\n\
-           abs_tol = 0.5\nunseen_tol = 0.1\ntolerance_on = \"summary\"\n";
+           abs_tol = 0.5\nunseen_tol = 0.1\ntolerance_on = \"summary\"\n\
+           interval = \"certified\"\n";
     let simulation = load_text(&project, &MapFiles::room()).unwrap().simulation;
     assert_eq!(simulation.rel_tol.as_ref().map(|v| (v.value, v.place.line)), Some((0.02, 18)));
     assert_eq!(simulation.confidence.as_ref().map(|v| v.value), Some(0.9));
@@ -170,6 +171,7 @@ fn simulation_values_keep_their_places() {
     assert_eq!(simulation.abs_tol_lx.as_ref().map(|v| v.value), Some(0.5));
     assert_eq!(simulation.unseen_tol.as_ref().map(|v| v.value), Some(Some(0.1)));
     assert_eq!(simulation.tolerance_on.as_ref().map(|v| &*v.value), Some("summary"));
+    assert_eq!(simulation.interval.as_ref().map(|v| &*v.value), Some("certified"));
     assert_eq!(simulation.first_shot.as_ref().map(|v| &*v.value), Some("off"));
     assert_eq!(simulation.sequence, None);
     let estimator = simulation.estimator.as_ref().unwrap();

@@ -1,6 +1,6 @@
 //! Whether settings make sense for a scene, and what a reader of the results must know.
 
-use crate::settings::{EstimatorKind, Settings, Switch, UnseenTolerance};
+use crate::settings::{EstimatorKind, IntervalKind, Settings, Switch, UnseenTolerance};
 use quasilux_scene::{Quantity, Scene, SensorShape};
 
 /// Settings that cannot work for this scene.
@@ -62,6 +62,20 @@ pub enum CheckError {
         /// Name of the estimator.
         estimator: &'static str,
     },
+    /// Nothing is known of single contributions.
+    #[error(
+        "interval = \"certified\" is for the estimator \"auto\": \"{estimator}\" bounds nothing"
+    )]
+    NothingCertified {
+        /// Name of the estimator.
+        estimator: &'static str,
+    },
+    /// There is nothing to compare.
+    #[error(
+        "interval = \"certified\" needs randomised replicates, two at least: their number bounds \
+         how near a lower limit comes"
+    )]
+    NoReplicates,
     /// There is no light at all.
     #[error("the lights of the scene emit nothing")]
     Dark,
@@ -78,6 +92,7 @@ pub fn check(scene: &Scene, settings: &Settings) -> Result<(), CheckError> {
         return Err(CheckError::Dark);
     }
     check_switches(settings)?;
+    check_interval(settings)?;
     if settings.estimator == EstimatorKind::Photon { check_photon_sensors(scene) } else { Ok(()) }
 }
 
@@ -125,6 +140,18 @@ fn check_switches(settings: &Settings) -> Result<(), CheckError> {
         return Err(CheckError::NothingToGuide { estimator: settings.estimator.name() });
     }
     Ok(())
+}
+
+/// Whether intervals of this kind can be had.
+fn check_interval(settings: &Settings) -> Result<(), CheckError> {
+    let estimator = settings.estimator;
+    if settings.interval != IntervalKind::Certified {
+        return Ok(());
+    }
+    if !estimator.is_bounded() {
+        return Err(CheckError::NothingCertified { estimator: estimator.name() });
+    }
+    if settings.effective_replicates() < 2 { Err(CheckError::NoReplicates) } else { Ok(()) }
 }
 
 /// Whether photons can be counted at all sensors, and for no camera.

@@ -2,6 +2,7 @@
 //! of points, averages and pictures that follow from them.
 
 use crate::settings::Settings;
+use crate::stats::certified::{CertifiedInterval, Evidence, miss_at_a_checkpoint};
 use crate::stats::decisions::Decisions;
 use crate::stats::interval::{Interval, t_quantile_for};
 use crate::stats::minimum::{interval_of_minimum, ratios};
@@ -311,6 +312,46 @@ impl Estimates {
 }
 
 impl Estimates {
+    /// The certified intervals of all points of one sensor; `None` of estimators without bounds,
+    /// and of runs without replicates that differ.
+    #[must_use]
+    pub fn certified_points(&self, sensor: usize) -> Option<Vec<CertifiedInterval>> {
+        let SensorEstimates { samples, .. } = &self.sensors[sensor];
+        (0..samples.len()).map(|point| self.certified(sensor, point..point + 1)).collect()
+    }
+
+    /// That of the average over a sensor's points; `None` where some of them ended before others,
+    /// too: means over points of different age are no sum over indices.
+    #[must_use]
+    pub fn certified_average(&self, sensor: usize) -> Option<CertifiedInterval> {
+        self.certified(sensor, 0..self.sensors[sensor].samples.len())
+    }
+
+    /// That of the mean of some points with equally many samples.
+    fn certified(&self, sensor: usize, points: Range<usize>) -> Option<CertifiedInterval> {
+        let SensorEstimates { replicate_lx, samples, unseen, .. } = &self.sensors[sensor];
+        let totals = &unseen.as_ref()?.totals;
+        let samples = samples[points.clone()].iter().copied();
+        let samples = samples.clone().min().filter(|least| samples.max() == Some(*least))?;
+        let computed_lx = mean(&totals.computed_lx[points.clone()]);
+        let sampled_lx = |row: &Vec<f64>| (mean(&row[points.clone()]) - computed_lx).max(0.0);
+        let replicates_lx: Vec<f64> = replicate_lx.iter().map(sampled_lx).collect();
+        let is_whole = !self.biased && self.invalid_contributions == 0;
+        let most = |lx: &[f64]| lx[points.clone()].iter().copied().fold(0.0, f64::max);
+        let evidence = Evidence {
+            replicates_lx: &replicates_lx,
+            computed_lx,
+            most_lx: if is_whole { most(&totals.most_lx) } else { f64::INFINITY },
+            beyond_lx: most(&totals.beyond_lx),
+            samples,
+        };
+        // Each of both limits may miss with a half.
+        let miss = 0.5 * (1.0 - self.confidence);
+        let has_looks = self.miss_probability < 1.0 - self.confidence;
+        let miss = if has_looks { miss_at_a_checkpoint(miss, samples) } else { miss };
+        (replicates_lx.len() > 1).then(|| CertifiedInterval::new(&evidence, miss))
+    }
+
     /// The illuminance in lx at most that no sample met in the average over a sensor's points, with
     /// [`UNSEEN_CONFIDENCE`](crate::unseen::UNSEEN_CONFIDENCE); `None` of estimators without a
     /// bound.

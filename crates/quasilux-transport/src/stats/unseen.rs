@@ -4,6 +4,7 @@
 //! one in, and samples that add at most W, a set of paths with more light than ln(1/d) K W is left
 //! without any sample with a probability of at most d.
 
+use crate::stats::certified::IndexTotals;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
@@ -24,6 +25,8 @@ pub struct UnseenLight {
     pub merged_lx: Vec<f64>,
     /// Radius of that disc in m; `None` for cells, and where there is none.
     pub disc_radius_m: Vec<Option<f64>>,
+    /// What certified intervals are made of.
+    pub totals: IndexTotals,
 }
 
 impl UnseenLight {
@@ -35,12 +38,20 @@ impl UnseenLight {
             average_lx: f64::INFINITY,
             merged_lx: vec![0.0; points],
             disc_radius_m: vec![None; points],
+            totals: IndexTotals {
+                computed_lx: vec![0.0; points],
+                most_lx: vec![f64::INFINITY; points],
+                beyond_lx: vec![0.0; points],
+            },
         }
     }
 
     /// Whether it has a row for each point.
     pub(crate) fn has_points(&self, points: usize) -> bool {
+        let IndexTotals { computed_lx, most_lx, beyond_lx } = &self.totals;
+        let of_totals = [computed_lx.len(), most_lx.len(), beyond_lx.len()];
         [self.point_lx.len(), self.merged_lx.len(), self.disc_radius_m.len()] == [points; 3]
+            && of_totals == [points; 3]
     }
 
     /// That of some of its points: of their average no more is known than of each.
@@ -50,7 +61,8 @@ impl UnseenLight {
             average_lx: mean(&point_lx),
             point_lx,
             merged_lx: self.merged_lx[points.clone()].to_vec(),
-            disc_radius_m: self.disc_radius_m[points].to_vec(),
+            disc_radius_m: self.disc_radius_m[points.clone()].to_vec(),
+            totals: self.totals.part(points),
         }
     }
 }
@@ -87,6 +99,7 @@ mod tests {
             average_lx: 0.05,
             merged_lx: vec![0.0, 3.0],
             disc_radius_m: vec![Some(0.1), None],
+            totals: UnseenLight::unknown(2).totals,
         }
     }
 

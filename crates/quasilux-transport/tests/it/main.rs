@@ -10,6 +10,7 @@ mod balance;
 mod bidirectional;
 mod bits;
 mod cameras;
+mod certified;
 mod connections;
 mod corridor;
 mod coverage;

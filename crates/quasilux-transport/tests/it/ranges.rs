@@ -1,8 +1,10 @@
 //! Settings out of range: numbers that mean nothing are refused before a run.
 
 use crate::element_size::room_with_points;
-use quasilux_sampling::Sequence;
-use quasilux_transport::{CheckError, Settings, UnseenTolerance, check};
+use quasilux_sampling::{Randomization, Sequence};
+use quasilux_transport::{
+    CheckError, EstimatorKind, IntervalKind, Settings, UnseenTolerance, check,
+};
 
 #[test]
 fn numbers_that_mean_nothing_are_refused() {
@@ -30,6 +32,23 @@ fn numbers_that_mean_nothing_are_refused() {
             matches!(refused, Err(CheckError::OutOfRange { setting, .. }) if setting == name),
             "{name}: {refused:?}"
         );
+    }
+}
+
+/// Where nothing is known of contributions, or no replicates differ, there is no certified
+/// interval.
+#[test]
+fn certified_intervals_want_bounds_and_replicates() {
+    let scene = room_with_points();
+    let asked = Settings { interval: IntervalKind::Certified, ..Settings::default() };
+    assert_eq!(check(&scene, &asked), Ok(()));
+    let path = Settings { estimator: EstimatorKind::Path, ..asked.clone() };
+    let refusal = CheckError::NothingCertified { estimator: "path" };
+    assert_eq!(check(&scene, &path), Err(refusal));
+    let single = Settings { replicates: 1, ..asked.clone() };
+    let unrandomised = Settings { randomization: Randomization::None, ..asked };
+    for settings in [single, unrandomised] {
+        assert_eq!(check(&scene, &settings), Err(CheckError::NoReplicates));
     }
 }
 

@@ -79,6 +79,37 @@ fn what_may_stay_unseen_can_be_said() {
     assert_eq!(unseen("off.toml", &["--unseen-tol", "2%"]), 0.02);
 }
 
+/// Limits stand beside points and averages where they are asked for: both with random points, and
+/// with Sobol' points the lower one, with a warning.
+#[test]
+fn certified_limits_can_be_asked_for() {
+    let folder = room("limits_certified");
+    let found = |more: &[&str]| {
+        let options = [&["--samples", "128", "--rel-tol", "0.01%"], more].concat();
+        parsed(&folder.document("room.toml", "out", &options, 3))
+    };
+    assert!(found(&[])["sensors"][0]["points"][0].get("certified_lx").is_none());
+    for sequence in ["random", "sobol"] {
+        let document = found(&["--interval", "certified", "--sequence", sequence]);
+        let warnings = document["warnings"].to_string();
+        let of_average = ["/sensors/0/summary/average_lx", "value"];
+        for [of, name] in [["/sensors/0/points/0", "illuminance_lx"], of_average] {
+            let value = number(&document, &format!("{of}/{name}"));
+            let lower = number(&document, &format!("{of}/certified_lx/lower"));
+            assert!(0.0 < lower && lower < value, "{lower}, {value}");
+            let upper = document.pointer(&format!("{of}/certified_lx/upper")).expect("there");
+            let is_above = upper.as_f64().is_some_and(|upper| upper > value);
+            assert_eq!((is_above, upper.is_null()), (sequence == "random", sequence == "sobol"));
+        }
+        let told = warnings.contains("certified upper limit needs sequence = \\\"random\\\"");
+        assert_eq!(told, sequence == "sobol", "{warnings}");
+    }
+    let refused = ["run", "room.toml", "--interval", "certified", "--estimator", "path"];
+    let run = folder.quasilux(&refused);
+    assert_eq!(run.code, Some(2));
+    assert!(run.stderr.contains("\"path\" bounds nothing"), "{}", run.stderr);
+}
+
 #[test]
 fn without_intervals_samples_end_a_run() {
     let folder = room("limits_unrandomised");

@@ -39,6 +39,7 @@ def simulate(
     abs_tol_lx: float | None = None,
     unseen_tol: float | str | None = None,
     tolerance_on: Literal["points", "summary"] | None = None,
+    interval: Literal["student-t", "certified"] | None = None,
     confidence: float | str | None = None,
     samples: int | None = None,
     rays: int | None = None,
@@ -65,7 +66,7 @@ def simulate(
     ----------
     scene : Scene or path-like
         A scene, or its project file on the driver's machine. It is shipped to the cluster once.
-    rel_tol, abs_tol_lx, unseen_tol, tolerance_on, confidence, samples, rays, time_s
+    rel_tol, abs_tol_lx, unseen_tol, tolerance_on, interval, confidence, samples, rays, time_s
         As in `quasilux.simulate`.
     estimator, sequence, seed, strict, progress
         As in `quasilux.simulate`.
@@ -106,6 +107,7 @@ def simulate(
         abs_tol_lx=abs_tol_lx,
         unseen_tol=unseen_tol,
         tolerance_on=tolerance_on,
+        interval=interval,
         confidence=confidence,
         samples=samples,
         rays=rays,

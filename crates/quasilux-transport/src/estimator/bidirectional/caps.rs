@@ -5,6 +5,7 @@
 //! sample met goes with `K W`, 1 over the sum of `n_i / (K_i cap_i)` over the techniques that can
 //! make all of the class (`docs/unseen.md`).
 
+mod of_indices;
 mod of_pixels;
 #[cfg(test)]
 mod search;
@@ -22,6 +23,7 @@ use crate::stats::targets::Target;
 use crate::stats::unseen::unseen_lx;
 use crate::stats::watch::{POINTS_AT_ONCE, Watch};
 use crate::world::{Facet, World};
+pub(super) use of_indices::{SamplesOfIndex, index_totals};
 pub(super) use of_pixels::PixelCaps;
 use std::f64::consts::PI;
 use surfaces::Surfaces;

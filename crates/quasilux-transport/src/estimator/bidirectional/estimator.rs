@@ -1,7 +1,7 @@
 //! The estimator of all sensors by bidirectional paths: sums over units of work, and the estimates
 //! that follow from them.
 
-use super::caps::Caps;
+use super::caps::{Caps, SamplesOfIndex, index_totals};
 use super::engine::Engine;
 use super::flux_tally::FluxTally;
 use super::join_rate::plan_joins;
@@ -32,6 +32,8 @@ pub(crate) struct BidirectionalEstimator<'a, S> {
     pub(super) engine: Engine<'a, 'a, S>,
     pub(super) scene: &'a Scene,
     caps: Caps,
+    /// What certified intervals know of indices.
+    samples_of_index: Option<SamplesOfIndex>,
     /// Of each target that is a point.
     exact: Vec<Exact>,
     pub(super) replicates: u32,
@@ -94,6 +96,7 @@ impl<'a, S: Spectrum> BidirectionalEstimator<'a, S> {
         let replicates = settings.effective_replicates();
         let empty = TargetSums::new(context.listed_terms);
         Some(Self {
+            samples_of_index: SamplesOfIndex::new(&engine, settings.sequence),
             caps,
             engine,
             scene,
@@ -219,6 +222,12 @@ impl<S: Spectrum> Estimator for BidirectionalEstimator<'_, S> {
                 point_lx: unseen_lx,
                 merged_lx: self.mean_of(|sums| sums.merged),
                 disc_radius_m: self.engine.receivers.iter().map(|it| it.radius_m).collect(),
+                totals: index_totals(
+                    &self.engine,
+                    self.samples_of_index.as_ref(),
+                    self.exact.iter().map(Exact::sum_lx).collect(),
+                    trials,
+                ),
             }),
         };
         let mut sensors = by_sensor(self.scene, &all);

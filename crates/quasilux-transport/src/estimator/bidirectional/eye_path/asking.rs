@@ -289,6 +289,7 @@ impl<S: Spectrum> EyePath<'_, S> {
             return;
         };
         let &Connection { vertex, direction, distance_m, light } = &connections[choice.index];
+        self.receiver.assert_capped("a connection", light);
         let light = light * stride as f64;
         let from = eye_vertex.vertex.ray_origin(direction);
         let ray = from.shadow_ray(direction, distance_m, vertex.at.facet);
