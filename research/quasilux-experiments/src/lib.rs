@@ -1,5 +1,6 @@
 //! Experiments on quasi-Monte Carlo light transport: those of Voloboy, Dmitriev and Kopylov (2003),
-//! and our own on coverage of intervals, rejection sampling and next-event estimation of photons.
+//! and our own on coverage and kinds of intervals, rejection sampling and next-event estimation of
+//! photons.
 //!
 //! An [`Experiment`] takes [`Options`] and gives an [`Outcome`]: tables, plots and pictures as
 //! bytes, and whether what it claims holds. It reads the clock where it compares times, and touches
@@ -19,6 +20,7 @@ mod emission;
 mod error_plot;
 mod first_shot;
 mod flights;
+mod intervals;
 mod markdown;
 mod neumann;
 mod octant;
@@ -32,7 +34,7 @@ mod timing;
 pub use outcome::{Options, Outcome, PictureFile};
 
 /// All experiments.
-pub static EXPERIMENTS: [Experiment; 10] = [
+pub static EXPERIMENTS: [Experiment; 11] = [
     Experiment {
         name: "cube",
         shows: "the diffuse cube, tables 4 and 5 of the paper",
@@ -69,6 +71,12 @@ pub static EXPERIMENTS: [Experiment; 10] = [
         shows: "how often the intervals hold the truth",
         takes: &[SEEDS],
         run: coverage::run,
+    },
+    Experiment {
+        name: "intervals",
+        shows: "kinds of intervals in rooms with jumps and heavy tails",
+        takes: &[SEEDS],
+        run: intervals::run,
     },
     Experiment {
         name: "octant",
