@@ -208,6 +208,7 @@ fn scene_and_estimates(sensors: Vec<(Sensor, Vec<Vec<f64>>)>) -> (Scene, Estimat
         resolved: vec![true; rows[0].len()],
         missed: vec![false; rows[0].len()],
         samples: vec![65_536; rows[0].len()],
+        average: None,
         terms: Vec::new(),
         unseen: None,
     });

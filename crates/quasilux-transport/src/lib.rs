@@ -74,6 +74,7 @@ pub use stats::decisions::Decisions;
 pub use stats::estimates::{
     self, Convergence, Dimensions, Estimates, FluxBalance, SensorEstimates, TermEstimates,
 };
+pub use stats::even_average::EvenAverage;
 pub use stats::interval::{self, Interval};
 pub use stats::observer::{self, Control, Observer, PictureProgress, Progress, Snapshot};
 pub use stats::picture::{CameraEstimates, Pixel};

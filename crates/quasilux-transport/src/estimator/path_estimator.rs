@@ -292,6 +292,7 @@ impl<S: Spectrum> Estimator for PathEstimator<'_, S> {
             resolved: self.resolved(&missed),
             missed,
             samples: (0..self.targets.len()).map(|target| self.samples_of(target)).collect(),
+            average: None,
             terms: self.terms(),
             unseen: None,
         };

@@ -158,9 +158,17 @@ impl<S: Spectrum> PhotonEstimator<'_, S> {
         });
         let terms = terms.collect();
         let resolved = found(&replicate_lx);
-        let samples = vec![self.samples; direct_lx.len()];
-        let missed = vec![false; direct_lx.len()];
-        SensorEstimates { replicate_lx, direct_lx, resolved, missed, samples, terms, unseen: None }
+        let targets = direct_lx.len();
+        SensorEstimates {
+            replicate_lx,
+            direct_lx,
+            resolved,
+            missed: vec![false; targets],
+            samples: vec![self.samples; targets],
+            average: None,
+            terms,
+            unseen: None,
+        }
     }
 }
 

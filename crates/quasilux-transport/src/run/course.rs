@@ -80,6 +80,7 @@ fn has_shape(estimates: &Estimates, scene: &Scene, settings: &Settings) -> bool 
             resolved,
             missed,
             samples,
+            average,
             terms: own,
             unseen,
         } = sensor;
@@ -93,6 +94,7 @@ fn has_shape(estimates: &Estimates, scene: &Scene, settings: &Settings) -> bool 
             && [resolved, missed].iter().all(|flags| flags.len() == points)
             && unseen.as_ref().is_none_or(|unseen| unseen.has_points(points))
             && own.len() == terms
+            && average.as_ref().is_none_or(|average| average.has_shape(replicates, terms))
             && own.iter().all(is_term)
     };
     let points = scene.sensors.iter().map(|sensor| sensor.points().len());
@@ -123,6 +125,7 @@ mod tests {
                 resolved: vec![true; 2],
                 missed: vec![false; 2],
                 samples: vec![16; 2],
+                average: None,
                 terms: vec![term; terms],
                 unseen: Some(UnseenLight::unknown(2)),
             };

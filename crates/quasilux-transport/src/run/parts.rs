@@ -11,7 +11,7 @@ use crate::context::Context;
 use crate::estimator::{Estimator, UNSTOPPED, new_estimator};
 use crate::prepared::PreparedScene;
 use crate::run::pictures::add_pictures;
-use crate::run::simulate::{Look, look};
+use crate::run::simulate::{Look, Sums, look};
 use crate::settings::Settings;
 use crate::spectrum::{Spectrum, is_grey};
 use crate::stats::decisions::Decisions;
@@ -176,8 +176,8 @@ fn put_together<'p, S: Spectrum>(
     }
     estimator.complete_at(samples);
     let miss_probability = 1.0 - settings.confidence;
-    let Look { mut estimates, .. } =
-        look(&context, scene, settings, estimator.as_ref(), miss_probability);
+    let sums = Sums { estimator: estimator.as_ref(), before: None };
+    let Look { mut estimates, .. } = look(&context, scene, settings, sums, miss_probability);
     estimates.decisions = decisions;
     drop(estimator);
     add_pictures(&context, scene, settings, &mut estimates, watch);

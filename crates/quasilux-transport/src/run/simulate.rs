@@ -197,8 +197,9 @@ impl<S: Spectrum> Steps<'_, '_, S> {
             if !estimator.advance(course.schedule.next_checkpoint(), watch) {
                 break;
             }
+            let sums = Sums { estimator: &*estimator, before: course.last.as_ref() };
             let Look { mut estimates, standing } =
-                look(context, scene, settings, &*estimator, stopping.miss_probability);
+                look(context, scene, settings, sums, stopping.miss_probability);
             if watch.has_failed() {
                 break;
             }
@@ -264,15 +265,28 @@ pub(crate) struct Look {
     pub(crate) standing: Standing,
 }
 
+/// What a run has at a checkpoint.
+#[derive(Clone, Copy)]
+pub(crate) struct Sums<'e> {
+    pub(crate) estimator: &'e dyn Estimator,
+    /// What the checkpoint before found, if there was one.
+    pub(crate) before: Option<&'e Estimates>,
+}
+
 /// Looks at the sums of a run, where the interval of each target may miss with this probability.
 pub(crate) fn look<S: Spectrum>(
     context: &Context<'_, S>,
     scene: &Scene,
     settings: &Settings,
-    estimator: &(dyn Estimator + '_),
+    sums: Sums<'_>,
     miss_probability: f64,
 ) -> Look {
-    let mut estimates = estimator.estimates();
+    let mut estimates = sums.estimator.estimates();
+    for (sensor, before) in
+        estimates.sensors.iter_mut().zip(sums.before.map_or(&[][..], |it| &it.sensors))
+    {
+        sensor.keep_average(before);
+    }
     estimates.confidence = settings.confidence;
     estimates.miss_probability = miss_probability;
     estimates.biased |= is_biased(scene, settings);

@@ -323,6 +323,7 @@ mod tests {
                     resolved: vec![true; 2],
                     missed: vec![false; 2],
                     samples: vec![n.min(self.done), n],
+                    average: None,
                     terms: Vec::new(),
                     unseen: None,
                 }],

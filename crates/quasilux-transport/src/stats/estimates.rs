@@ -4,6 +4,7 @@
 use crate::settings::Settings;
 use crate::stats::certified::{CertifiedInterval, Evidence, miss_at_a_checkpoint};
 use crate::stats::decisions::Decisions;
+use crate::stats::even_average::EvenAverage;
 use crate::stats::interval::{Interval, t_quantile_for};
 use crate::stats::minimum::{interval_of_minimum, ratios};
 use crate::stats::picture::CameraEstimates;
@@ -75,6 +76,9 @@ pub struct SensorEstimates {
     /// Indices per replicate behind each point: fewer than of others where it reached its tolerance
     /// before.
     pub samples: Vec<u64>,
+    /// The average over the points where these numbers differ: that of the last checkpoint before
+    /// they did. `None` where they are equal.
+    pub average: Option<EvenAverage>,
     /// The terms of the Neumann series, by bounces, and the rest; empty where none were to be
     /// listed.
     pub terms: Vec<TermEstimates>,
@@ -147,6 +151,7 @@ impl Estimates {
                 resolved: vec![false; points],
                 missed: vec![false; points],
                 samples: vec![0; points],
+                average: None,
                 terms: vec![term; terms as usize],
                 unseen: settings.estimator.is_bounded().then(|| UnseenLight::unknown(points)),
             }
@@ -175,8 +180,12 @@ impl Estimates {
     fn found_interval_of(&self, sensor: usize, statistic: impl Fn(&[f64]) -> f64) -> Interval {
         let rows = &self.sensors[sensor].replicate_lx;
         let figures: Vec<f64> = rows.iter().map(|row| statistic(row)).collect();
-        let t = t_quantile_for(rows.len(), self.miss_probability);
-        Interval::of_mean(figures.into_iter(), t)
+        self.interval_of_replicates(&figures)
+    }
+
+    fn interval_of_replicates(&self, figures: &[f64]) -> Interval {
+        let t = t_quantile_for(figures.len(), self.miss_probability);
+        Interval::of_mean(figures.iter().copied(), t)
     }
 
     /// Without its half-width where nothing was found at a point of the sensor.
@@ -185,15 +194,16 @@ impl Estimates {
         Interval { half_width: interval.half_width.filter(|_| is_resolved), ..interval }
     }
 
-    /// The interval of the mean of the points of one sensor, in lx.
+    /// The interval of the mean of the points of one sensor, in lx: of the last checkpoint at which
+    /// all of them had the same number of samples.
     #[must_use]
     pub fn average(&self, sensor: usize) -> Interval {
-        self.interval_of(sensor, mean)
+        self.where_resolved(sensor, self.found_average(sensor))
     }
 
     /// The average of what was found, whatever is missing: what decides whether a run goes on.
     pub(crate) fn found_average(&self, sensor: usize) -> Interval {
-        self.found_interval_of(sensor, mean)
+        self.interval_of_replicates(&self.sensors[sensor].even_average().replicate_lx)
     }
 
     /// The interval of the smallest value of one sensor, in lx: that of the point where it truly is
@@ -218,8 +228,9 @@ impl Estimates {
     /// The interval of the smallest value over the mean of one sensor.
     #[must_use]
     pub fn uniformity(&self, sensor: usize) -> Interval {
-        let interval_of_minimum =
-            interval_of_minimum(&ratios(&self.sensors[sensor].replicate_lx), self.miss_probability);
+        let own = &self.sensors[sensor];
+        let ratios = ratios(&own.replicate_lx, &own.even_average().replicate_lx);
+        let interval_of_minimum = interval_of_minimum(&ratios, self.miss_probability);
         self.where_resolved(sensor, interval_of_minimum)
     }
 
@@ -241,11 +252,10 @@ impl Estimates {
     /// The interval of the mean of one term over the points of one sensor, in lx.
     #[must_use]
     pub fn term_average(&self, sensor: usize, term: usize) -> Interval {
-        let TermEstimates { replicate_lx, resolved } = &self.sensors[sensor].terms[term];
-        let means = replicate_lx.iter().map(|row| row.iter().sum::<f64>() / row.len() as f64);
-        let t = t_quantile_for(replicate_lx.len(), self.miss_probability);
-        let is_resolved = resolved.iter().all(|resolved| *resolved);
-        Interval::of_mean(means, t.filter(|_| is_resolved))
+        let own = &self.sensors[sensor];
+        let interval = self.interval_of_replicates(&own.even_average().terms_lx[term]);
+        let is_resolved = own.terms[term].resolved.iter().all(|resolved| *resolved);
+        Interval { half_width: interval.half_width.filter(|_| is_resolved), ..interval }
     }
 
     fn intervals(&self, replicate_lx: &[Vec<f64>], resolved: &[bool]) -> Vec<Interval> {
@@ -256,11 +266,29 @@ impl Estimates {
     }
 }
 
-fn mean(lx: &[f64]) -> f64 {
-    lx.iter().sum::<f64>() / lx.len() as f64
+/// The mean of each row.
+fn means(rows: &[Vec<f64>]) -> Vec<f64> {
+    rows.iter().map(|row| row.iter().sum::<f64>() / row.len() as f64).collect()
 }
 
 impl SensorEstimates {
+    /// Keeps the average of the checkpoint before where points have ended since.
+    pub(crate) fn keep_average(&mut self, before: &Self) {
+        let are_equal = self.samples.iter().all(|samples| *samples == self.samples[0]);
+        if !are_equal {
+            self.average = Some(before.even_average());
+        }
+    }
+
+    /// The average of equal numbers of samples.
+    fn even_average(&self) -> EvenAverage {
+        self.average.clone().unwrap_or_else(|| EvenAverage {
+            replicate_lx: means(&self.replicate_lx),
+            terms_lx: self.terms.iter().map(|term| means(&term.replicate_lx)).collect(),
+            unseen_lx: self.unseen.as_ref().map(|unseen| unseen.average_lx),
+        })
+    }
+
     /// The figures of some of its points.
     pub(crate) fn part(&self, points: Range<usize>) -> Self {
         let columns = |rows: &[Vec<f64>]| -> Vec<Vec<f64>> {
@@ -276,6 +304,7 @@ impl SensorEstimates {
             resolved: self.resolved[points.clone()].to_vec(),
             missed: self.missed[points.clone()].to_vec(),
             samples: self.samples[points.clone()].to_vec(),
+            average: None,
             terms: self.terms.iter().map(term).collect(),
             unseen: self.unseen.as_ref().map(|unseen| unseen.part(points)),
         }
@@ -357,7 +386,7 @@ impl Estimates {
     /// bound.
     #[must_use]
     pub fn unseen_of_average(&self, sensor: usize) -> Option<f64> {
-        self.sensors[sensor].unseen.as_ref().map(|unseen| unseen.average_lx)
+        self.sensors[sensor].even_average().unseen_lx
     }
 
     /// How much larger in lx the smallest value of one sensor may be by light that no sample met:
@@ -395,4 +424,8 @@ impl Estimates {
         // What is no number is not known at all.
         Some(if more_lx.is_nan() { f64::INFINITY } else { more_lx.max(0.0) })
     }
+}
+
+fn mean(lx: &[f64]) -> f64 {
+    lx.iter().sum::<f64>() / lx.len() as f64
 }

@@ -1,17 +1,19 @@
 //! Exact sums, confidence intervals, and when a run may stop.
 //!
 //! [`tally`] holds the sums, [`interval`] and [`minimum`] how intervals are made, [`estimates`]
-//! those of sensor values, [`unseen`] what is left open beside them, [`certified`] intervals that
-//! hold for any number of samples, [`sequential`] what looking several times costs them,
-//! [`schedule`] and [`tolerance`] what the decision to stop needs (`run::simulate` takes it),
-//! [`convergence`] the prediction of the end, [`efficiency`] the choice between estimators,
-//! [`observer`] and [`watch`] the way out of a run, [`workers`] the way to other processes.
+//! those of sensor values, [`even_average`] those of averages, [`unseen`] what is left open beside
+//! them, [`certified`] intervals that hold for any number of samples, [`sequential`] what looking
+//! several times costs them, [`schedule`] and [`tolerance`] what the decision to stop needs
+//! (`run::simulate` takes it), [`convergence`] the prediction of the end, [`efficiency`] the choice
+//! between estimators, [`observer`] and [`watch`] the way out of a run, [`workers`] the way to
+//! other processes.
 
 pub mod certified;
 pub mod convergence;
 pub(crate) mod decisions;
 pub(crate) mod efficiency;
 pub mod estimates;
+pub(crate) mod even_average;
 pub mod interval;
 pub(crate) mod minimum;
 pub mod observer;

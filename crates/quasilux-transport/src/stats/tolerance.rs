@@ -51,16 +51,17 @@ impl Standing {
             standing.unresolved += unresolved as u64;
             let points = estimates.point_intervals(sensor);
             standing.relative_widths.extend(points.iter().map(Interval::relative_half_width));
+            let average = estimates.found_average(sensor);
+            let unseen_lx = estimates.unseen_of_average(sensor);
             match settings.tolerance_on {
                 ToleranceOn::Points => {
-                    standing.add_points(figures, &points, &yardstick);
+                    let average = yardstick.target(&average, unseen_lx, true);
+                    standing.add_points(figures, &points, average, &yardstick);
                 }
                 ToleranceOn::Summary => {
                     let resolved =
                         unresolved == 0 || yardstick.had_a_chance(figures.missed.contains(&true));
-                    let unseen_lx = estimates.unseen_of_average(sensor);
-                    let target =
-                        yardstick.target(&estimates.found_average(sensor), unseen_lx, resolved);
+                    let target = yardstick.target(&average, unseen_lx, resolved);
                     let is_given_up = target.is_without_end() && yardstick.had_a_chance(false);
                     points.iter().for_each(|_| standing.add(target, is_given_up));
                 }
@@ -70,18 +71,22 @@ impl Standing {
         standing
     }
 
-    /// Adds all points of a sensor, each with a tolerance of its own.
+    /// Adds all points of a sensor, each with a tolerance of its own. They wait for their average,
+    /// which takes no part of points that end before others.
     fn add_points(
         &mut self,
         figures: &SensorEstimates,
         points: &[Interval],
+        average: Target,
         yardstick: &Yardstick<'_>,
     ) {
+        let waits = !(average.is_without_end() && yardstick.had_a_chance(false));
         for (number, point) in points.iter().enumerate() {
             let unseen_lx = figures.unseen.as_ref().map(|unseen| unseen.point_lx[number]);
             let resolved = figures.resolved[number];
             let missed = figures.missed[number];
-            let target = yardstick.target(point, unseen_lx, resolved);
+            let own = yardstick.target(point, unseen_lx, resolved);
+            let target = if waits { own.with(average) } else { own };
             let is_given_up = match resolved {
                 true => target.is_without_end() && yardstick.had_a_chance(false),
                 false => yardstick.had_a_chance(missed),
@@ -137,6 +142,16 @@ struct Target {
 }
 
 impl Target {
+    /// Both together: resolved where it is.
+    fn with(self, other: Self) -> Self {
+        let larger = |[a, b]: [Option<f64>; 2]| a.zip(b).map(|(a, b)| a.max(b));
+        Self {
+            excess: larger([self.excess, other.excess]),
+            unseen_excess: larger([self.unseen_excess, other.unseen_excess]),
+            resolved: self.resolved,
+        }
+    }
+
     fn is_done(&self) -> bool {
         let is_seen = self.unseen_excess.is_none_or(|excess| excess <= 1.0);
         self.resolved && self.is_narrow() && is_seen
@@ -171,6 +186,9 @@ fn unseen_excess(unseen_lx: f64, value_lx: f64, settings: &Settings) -> f64 {
 }
 
 #[cfg(test)]
+mod large_grids;
+
+#[cfg(test)]
 mod tests {
     use super::*;
     use crate::settings::UnseenTolerance;
@@ -195,6 +213,7 @@ mod tests {
             resolved: vec![true; n],
             missed: vec![false; n],
             samples: vec![1 << 10; n],
+            average: None,
             terms: Vec::new(),
             unseen: Some(unseen),
         };

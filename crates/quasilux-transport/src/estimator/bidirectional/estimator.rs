@@ -216,6 +216,7 @@ impl<S: Spectrum> Estimator for BidirectionalEstimator<'_, S> {
             resolved: vec![true; targets],
             missed: vec![false; targets],
             samples: (0..targets).map(|target| self.samples_of(target)).collect(),
+            average: None,
             terms: self.terms(),
             unseen: Some(UnseenLight {
                 average_lx: 0.0,
