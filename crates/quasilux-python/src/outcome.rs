@@ -6,7 +6,7 @@ use pyo3::types::{PyBytes, PyDict};
 use quasilux::embedded::{self, CliError, Finished, Project, Stopped};
 use quasilux_report::{CameraReport, CertifiedFigure, SensorReport, Style, json, number, table};
 use quasilux_scene::{Grid, Quantity};
-use quasilux_transport::{Estimates, Pixel, SensorEstimates};
+use quasilux_transport::{Estimates, Pixel, PointStatus, SensorEstimates};
 use serde::Serialize;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -130,6 +130,8 @@ impl Outcome {
         put("replicates_lx", rows.concat(), &[&[rows.len()], &shape[..]].concat())?;
         let samples = points().map(|point| point.samples).collect();
         arrays.set_item("samples", read_only(py, samples, &shape))?;
+        let statuses = points().map(|point| point.status.map(PointStatus::name));
+        arrays.set_item("status", statuses.collect::<Option<Vec<&str>>>())?;
         Ok(arrays)
     }
 

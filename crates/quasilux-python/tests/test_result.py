@@ -42,6 +42,14 @@ def scene() -> quasilux.Scene:
     return room(sensors={"board": BOARD, "desks": POINTS}, cameras=[CAMERA], name="room")
 
 
+def test_points_say_what_they_wait_for(scene: quasilux.Scene) -> None:
+    done = quasilux.simulate(scene, rel_tol=0.1)["board"].status
+    assert done is not None and done.shape == (2, 3) and set(done.flat) == {"done"}
+    few = quasilux.simulate(scene, rel_tol=0.1, samples=16)["desks"].status
+    assert few is not None and "done" not in set(few.flat)
+    assert quasilux.simulate(scene, rel_tol=0.0, samples=16)["desks"].status is None
+
+
 @pytest.fixture(scope="module")
 def result(scene: quasilux.Scene) -> quasilux.Result:
     return quasilux.simulate(scene, rel_tol=0.05)

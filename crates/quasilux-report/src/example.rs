@@ -5,7 +5,7 @@ use glam::DVec3;
 use quasilux_scene::{Camera, Grid, Quantity, Scene, Sensor, SensorPoint, SensorShape};
 use quasilux_transport::{
     CameraEstimates, Convergence, Decisions, DimensionHistogram, Dimensions, Estimates,
-    EstimatorKind, FluxBalance, Pixel, SensorEstimates, Settings, UnseenLight,
+    EstimatorKind, Evidence, FluxBalance, Pixel, SensorEstimates, Settings, UnseenLight,
 };
 
 /// A grid in the xy plane.
@@ -205,8 +205,7 @@ fn scene_and_estimates(sensors: Vec<(Sensor, Vec<Vec<f64>>)>) -> (Scene, Estimat
     let figures = sensors.iter().map(|(_, rows)| SensorEstimates {
         replicate_lx: rows.clone(),
         direct_lx: rows[0].iter().map(|lx| 0.8 * lx).collect(),
-        resolved: vec![true; rows[0].len()],
-        missed: vec![false; rows[0].len()],
+        evidence: vec![Evidence::Sound; rows[0].len()],
         samples: vec![65_536; rows[0].len()],
         average: None,
         terms: Vec::new(),

@@ -14,7 +14,7 @@ use quasilux_inspection::Finding;
 use quasilux_scene::{Grid, Scene, SensorShape};
 use quasilux_transport::{
     Convergence, DaylightComponents, Decisions, Dimensions, Estimates, Explanation, FluxBalance,
-    SensorEstimates, Settings,
+    PointStatus, SensorEstimates, Settings,
 };
 
 /// What the program that ran the simulation knows and the simulation does not.
@@ -115,6 +115,9 @@ pub struct PointReport {
     pub daylight_factor: Option<DaylightFactor>,
     /// Indices used by each replicate for this point.
     pub samples: u64,
+    /// Whether it is known as well as was asked for, and what is missing if not; `None` without a
+    /// tolerance.
+    pub status: Option<PointStatus>,
 }
 
 /// Figures of all points of a sensor, their intervals from the replicates.
@@ -193,9 +196,7 @@ impl Report {
     pub fn new(scene: &Scene, settings: &Settings, estimates: &Estimates, facts: RunFacts) -> Self {
         assert_eq!(scene.sensors.len(), estimates.sensors.len(), "estimates of another scene");
         let outside = Outside::new(scene);
-        let mut sensors: Vec<SensorReport> = (0..scene.sensors.len())
-            .map(|s| SensorReport::new(scene, estimates, s, settings))
-            .collect();
+        let mut sensors = SensorReport::all(scene, estimates, settings);
         add_daylight_factors(&mut sensors, outside, facts.daylight.as_deref());
         assert_eq!(scene.cameras.len(), estimates.cameras.len(), "estimates of another scene");
         let cameras =
@@ -274,6 +275,17 @@ impl Run {
 }
 
 impl SensorReport {
+    fn all(scene: &Scene, estimates: &Estimates, settings: &Settings) -> Vec<Self> {
+        let new = |sensor| Self::new(scene, estimates, sensor, settings);
+        let mut all: Vec<Self> = (0..scene.sensors.len()).map(new).collect();
+        let statuses = estimates.point_statuses(settings).into_iter().flatten();
+        for (sensor, statuses) in all.iter_mut().zip(statuses) {
+            let points = sensor.points.iter_mut().zip(statuses);
+            points.for_each(|(point, status)| point.status = Some(status));
+        }
+        all
+    }
+
     fn new(scene: &Scene, estimates: &Estimates, index: usize, settings: &Settings) -> Self {
         let sensor = &scene.sensors[index];
         let certified = CertifiedFigures::new(estimates, index, settings);
@@ -292,6 +304,7 @@ impl SensorReport {
                 certified_lx: certified.points.as_ref().and_then(|all| all.get(i).copied()),
                 daylight_factor: None,
                 samples: samples.get(i).copied().unwrap_or_default(),
+                status: None,
             })
             .collect();
         Self {

@@ -4,6 +4,7 @@ mod certified;
 mod convergence;
 mod explanation;
 mod flux;
+mod statuses;
 mod terms;
 mod unseen;
 
@@ -283,7 +284,9 @@ impl Verdict {
             let text = format!("tolerance of {wanted} reached {at}");
             Self { emphasis: Emphasis::Good, text }
         } else {
-            let text = format!("tolerance of {wanted} not reached");
+            let missing = statuses::missing(report);
+            let because = if missing.is_empty() { "" } else { ": " };
+            let text = format!("tolerance of {wanted} not reached{because}{missing}");
             Self { emphasis: Emphasis::Caution, text }
         }
     }

@@ -78,6 +78,7 @@ pub use stats::even_average::EvenAverage;
 pub use stats::interval::{self, Interval};
 pub use stats::observer::{self, Control, Observer, PictureProgress, Progress, Snapshot};
 pub use stats::picture::{CameraEstimates, Pixel};
+pub use stats::point_status::{Evidence, PointStatus};
 pub use stats::unseen::{self, UnseenLight};
 pub use stats::workers::{Received, Workers};
 

@@ -169,6 +169,24 @@ class SensorResult:
         """Indices that each replicate used for each point, shape (v, u) or (n,)."""
         return self._arrays["samples"]
 
+    @cached_property
+    def status(self) -> NDArray[np.str_] | None:
+        """Whether each point is known as well as was asked for, shape (v, u) or (n,).
+
+        Either ``"done"``, or what is missing: its ``"half_width"`` is too large, the bound on
+        ``"unseen"`` light is, the ``"average"`` of the sensor is not known well enough, no light
+        was found (``"dark"``), too little of light that is rare and bright (``"rare_light"``), or
+        there are too few samples (``"few_samples"``). None without a tolerance.
+        """
+        import numpy as np
+
+        names = self._arrays["status"]
+        if names is None:
+            return None
+        status = np.array(names, np.str_).reshape(self.shape)
+        status.flags.writeable = False
+        return status
+
     @property
     def positions_m(self) -> Floats:
         """Positions in m, centres of cells, shape (v, u, 3) or (n, 3)."""

@@ -25,8 +25,11 @@
 //! 2, .. coordinates, in one list each, all of more than 1023 together at its end, `photons`, how
 //! many began in all, `null` where none did, and `mean_events`, surfaces that a `photon` came to on
 //! average. A point that reached its tolerance before others has its own number of `samples`. Where
-//! the sky shines, `outside` has its horizontal illuminance, and where nothing else does each point
-//! its `daylight_factor`, a share; beside openings in its parts, `sky_component`,
+//! there is a tolerance, `status` says whether a point is "done", or what is missing: its
+//! "half_width", the bound on "unseen" light, the "average" of its sensor, any light at all
+//! ("dark"), more of light that is rare and bright ("rare_light"), or more samples ("few_samples").
+//! Where the sky shines, `outside` has its horizontal illuminance, and where nothing else does each
+//! point its `daylight_factor`, a share; beside openings in its parts, `sky_component`,
 //! `externally_reflected_component` and `internally_reflected_component`, the first two with what
 //! no path met of each at most (`components_unseen`). Where it was asked for, `explain` says which
 //! coordinates carry the variance. `findings` are what is probably wrong with the scene, each with
@@ -49,7 +52,7 @@ use explanation::ExplanationEntry;
 use layout::Layout;
 use prediction::PredictionEntry;
 use quasilux_transport::unseen::UNSEEN_CONFIDENCE;
-use quasilux_transport::{Decisions, DimensionHistogram, Dimensions, Settings};
+use quasilux_transport::{Decisions, DimensionHistogram, Dimensions, PointStatus, Settings};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 use terms::TermEntry;
@@ -114,6 +117,8 @@ struct PointEntry {
     unseen: UnseenEntry,
     #[serde(skip_serializing_if = "Option::is_none")]
     certified_lx: Option<CertifiedFigure>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    status: Option<PointStatus>,
     #[serde(flatten)]
     daylight: Map<String, Value>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -264,6 +269,7 @@ impl PointEntry {
             direct_lx: point.direct_lx,
             unseen: UnseenEntry::new(point.unseen),
             certified_lx: point.certified_lx,
+            status: point.status,
             daylight: point.daylight_factor.map(daylight).unwrap_or_default(),
             samples: Some(point.samples).filter(|samples| *samples != report.run.samples),
             terms_lx: TermEntry::all(&sensor.terms, |term| term.points_lx[number]),

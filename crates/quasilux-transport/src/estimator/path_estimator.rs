@@ -285,12 +285,11 @@ impl<S: Spectrum> Estimator for PathEstimator<'_, S> {
         let Costs { work, photons } = self.costs();
         let replicates = self.replicates as usize;
         let replicate_lx: Vec<Vec<f64>> = (0..replicates).map(|r| self.replicate_lx(r)).collect();
-        let missed = self.hidden_tails(&replicate_lx);
+        let evidence = self.evidence(&replicate_lx);
         let all = SensorEstimates {
             replicate_lx,
             direct_lx: self.direct_lx(),
-            resolved: self.resolved(&missed),
-            missed,
+            evidence,
             samples: (0..self.targets.len()).map(|target| self.samples_of(target)).collect(),
             average: None,
             terms: self.terms(),

@@ -27,6 +27,7 @@ use crate::spectrum::Spectrum;
 use crate::stats::decisions::Decisions;
 use crate::stats::estimates::{Dimensions, Estimates, SensorEstimates, TermEstimates};
 use crate::stats::observer::Snapshot;
+use crate::stats::point_status::Evidence;
 use crate::stats::tally::checked_quanta;
 use crate::stats::targets::{by_sensor, snapshot};
 use crate::stats::watch::{BlockCounts, Watch};
@@ -157,13 +158,13 @@ impl<S: Spectrum> PhotonEstimator<'_, S> {
             TermEstimates { replicate_lx, resolved }
         });
         let terms = terms.collect();
-        let resolved = found(&replicate_lx);
+        let evidence = |found: bool| if found { Evidence::Sound } else { Evidence::Dark };
+        let evidence = found(&replicate_lx).into_iter().map(evidence).collect();
         let targets = direct_lx.len();
         SensorEstimates {
             replicate_lx,
             direct_lx,
-            resolved,
-            missed: vec![false; targets],
+            evidence,
             samples: vec![self.samples; targets],
             average: None,
             terms,

@@ -77,8 +77,7 @@ fn has_shape(estimates: &Estimates, scene: &Scene, settings: &Settings) -> bool 
         let SensorEstimates {
             replicate_lx,
             direct_lx,
-            resolved,
-            missed,
+            evidence,
             samples,
             average,
             terms: own,
@@ -90,8 +89,7 @@ fn has_shape(estimates: &Estimates, scene: &Scene, settings: &Settings) -> bool 
         let is_term =
             |term: &TermEstimates| are_rows(&term.replicate_lx) && term.resolved.len() == points;
         are_rows(replicate_lx)
-            && [direct_lx.len(), samples.len()] == [points; 2]
-            && [resolved, missed].iter().all(|flags| flags.len() == points)
+            && [direct_lx.len(), samples.len(), evidence.len()] == [points; 3]
             && unseen.as_ref().is_none_or(|unseen| unseen.has_points(points))
             && own.len() == terms
             && average.as_ref().is_none_or(|average| average.has_shape(replicates, terms))
@@ -105,6 +103,7 @@ fn has_shape(estimates: &Estimates, scene: &Scene, settings: &Settings) -> bool 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::stats::point_status::Evidence;
     use crate::stats::unseen::UnseenLight;
     use quasilux_scene::{Sensor, SensorPoint, SensorShape};
 
@@ -122,8 +121,7 @@ mod tests {
             let sensor = SensorEstimates {
                 replicate_lx: vec![vec![1.0; 2]; rows],
                 direct_lx: vec![0.5; 2],
-                resolved: vec![true; 2],
-                missed: vec![false; 2],
+                evidence: vec![Evidence::Sound; 2],
                 samples: vec![16; 2],
                 average: None,
                 terms: vec![term; terms],

@@ -22,9 +22,6 @@ use crate::stats::workers::Workers;
 use quasilux_bvh::SimdLevel;
 use quasilux_scene::{Rgb, Scene};
 
-/// Relative half-widths of what does not differ between replicates.
-const ROUNDING: f64 = 1e-12;
-
 /// Why a run without workers has a result.
 const ALWAYS: &str = "only workers can fail";
 
@@ -311,10 +308,7 @@ pub(crate) fn look<S: Spectrum>(
     let standing = Standing::new(&estimates, settings);
     estimates.unresolved_points = standing.unresolved;
     estimates.warnings.extend(warnings_of_values(&estimates));
-    // Without sensors there is nothing to be wrong about, and what is not sampled is exact.
-    let is_exact =
-        settings.max_bounces == Some(0) && standing.largest().is_some_and(|w| w < ROUNDING);
-    let may_be_done = scene.sensors.is_empty() || is_exact || estimates.samples >= MIN_SAMPLES;
+    let may_be_done = standing.has_enough(estimates.samples, settings);
     estimates.tolerance_reached = standing.is_reached && may_be_done;
     if standing.is_reached && !may_be_done {
         estimates.warnings.push(format!(

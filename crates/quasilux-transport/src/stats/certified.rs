@@ -52,7 +52,7 @@ pub struct IndexTotals {
 
 /// Of what a limit is made.
 #[derive(Clone, Copy)]
-pub(crate) struct Evidence<'r> {
+pub(crate) struct Measured<'r> {
     /// What each replicate found, what is computed without samples left out, in lx.
     pub(crate) replicates_lx: &'r [f64],
     /// That.
@@ -77,8 +77,8 @@ impl IndexTotals {
 
 impl CertifiedInterval {
     /// `miss` is the probability that each of the limits may miss with.
-    pub(crate) fn new(evidence: &Evidence<'_>, miss: f64) -> Self {
-        let &Evidence { replicates_lx, computed_lx, most_lx, beyond_lx, samples } = evidence;
+    pub(crate) fn new(measured: &Measured<'_>, miss: f64) -> Self {
+        let &Measured { replicates_lx, computed_lx, most_lx, beyond_lx, samples } = measured;
         let mean_lx = replicates_lx.iter().sum::<f64>() / replicates_lx.len() as f64;
         let trials = replicates_lx.len() as f64 * samples as f64;
         let upper_lx = upper_limit(mean_lx, most_lx, trials, miss) + beyond_lx;

@@ -284,6 +284,7 @@ mod tests {
     use super::*;
     use crate::settings::Settings;
     use crate::stats::estimates::SensorEstimates;
+    use crate::stats::point_status::Evidence;
 
     /// Two targets with half-widths of `scale * N^slope` over value each, the first done at `done`.
     struct MadeUp {
@@ -320,8 +321,7 @@ mod tests {
                 sensors: vec![SensorEstimates {
                     replicate_lx: Vec::new(),
                     direct_lx: Vec::new(),
-                    resolved: vec![true; 2],
-                    missed: vec![false; 2],
+                    evidence: vec![Evidence::Sound; 2],
                     samples: vec![n.min(self.done), n],
                     average: None,
                     terms: Vec::new(),
@@ -342,6 +342,7 @@ mod tests {
                 excess: widths.iter().map(|width| Some(width / settings.rel_tol)).collect(),
                 unseen_excess: samples.iter().map(unseen_excess).collect(),
                 done: widths.iter().map(|width| *width <= settings.rel_tol).collect(),
+                statuses: Vec::new(),
                 unresolved: 0,
                 is_reached: false,
                 may_end: false,

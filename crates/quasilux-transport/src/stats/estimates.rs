@@ -2,12 +2,13 @@
 //! of points, averages and pictures that follow from them.
 
 use crate::settings::Settings;
-use crate::stats::certified::{CertifiedInterval, Evidence, miss_at_a_checkpoint};
+use crate::stats::certified::{CertifiedInterval, Measured, miss_at_a_checkpoint};
 use crate::stats::decisions::Decisions;
 use crate::stats::even_average::EvenAverage;
 use crate::stats::interval::{Interval, t_quantile_for};
 use crate::stats::minimum::{interval_of_minimum, ratios};
 use crate::stats::picture::CameraEstimates;
+use crate::stats::point_status::Evidence;
 use crate::stats::unseen::{UnseenLight, factor_of_all};
 use quasilux_sampling::DimensionHistogram;
 use quasilux_scene::{Scene, Sensor};
@@ -68,11 +69,9 @@ pub struct SensorEstimates {
     pub replicate_lx: Vec<Vec<f64>>,
     /// The part of it that comes straight from the lights, mean over the replicates, in lx.
     pub direct_lx: Vec<f64>,
-    /// Whether light was found wherever it was looked for; points without have no interval.
-    pub resolved: Vec<bool>,
-    /// Whether too few paths met light that is rare and bright, of narrow lobes or of facets over
-    /// mirrors: such points are not resolved, either, but more paths are sure to help.
-    pub missed: Vec<bool>,
+    /// Whether the samples of each point tell how well it is known; points where they do not have
+    /// no interval.
+    pub evidence: Vec<Evidence>,
     /// Indices per replicate behind each point: fewer than of others where it reached its tolerance
     /// before.
     pub samples: Vec<u64>,
@@ -83,7 +82,7 @@ pub struct SensorEstimates {
     /// listed.
     pub terms: Vec<TermEstimates>,
     /// What is left open beside the intervals; `None` of estimators without a bound. Points with
-    /// one are resolved: it says what may be missing.
+    /// one have sound evidence: it says what may be missing.
     pub unseen: Option<UnseenLight>,
 }
 
@@ -148,8 +147,7 @@ impl Estimates {
             SensorEstimates {
                 replicate_lx: unknown_lx,
                 direct_lx: vec![f64::NAN; points],
-                resolved: vec![false; points],
-                missed: vec![false; points],
+                evidence: vec![Evidence::Dark; points],
                 samples: vec![0; points],
                 average: None,
                 terms: vec![term; terms as usize],
@@ -190,7 +188,7 @@ impl Estimates {
 
     /// Without its half-width where nothing was found at a point of the sensor.
     fn where_resolved(&self, sensor: usize, interval: Interval) -> Interval {
-        let is_resolved = self.sensors[sensor].resolved.iter().all(|resolved| *resolved);
+        let is_resolved = self.sensors[sensor].evidence.iter().all(|own| own.is_sound());
         Interval { half_width: interval.half_width.filter(|_| is_resolved), ..interval }
     }
 
@@ -237,8 +235,8 @@ impl Estimates {
     /// The intervals of all points of one sensor, in lx; no half-width where nothing was found.
     #[must_use]
     pub fn point_intervals(&self, sensor: usize) -> Vec<Interval> {
-        let SensorEstimates { replicate_lx, resolved, .. } = &self.sensors[sensor];
-        self.intervals(replicate_lx, resolved)
+        let SensorEstimates { replicate_lx, evidence, .. } = &self.sensors[sensor];
+        self.intervals(replicate_lx, |point| evidence[point].is_sound())
     }
 
     /// The intervals of one term of the Neumann series at all points of one sensor, in lx; no
@@ -246,7 +244,7 @@ impl Estimates {
     #[must_use]
     pub fn term_intervals(&self, sensor: usize, term: usize) -> Vec<Interval> {
         let TermEstimates { replicate_lx, resolved } = &self.sensors[sensor].terms[term];
-        self.intervals(replicate_lx, resolved)
+        self.intervals(replicate_lx, |point| resolved[point])
     }
 
     /// The interval of the mean of one term over the points of one sensor, in lx.
@@ -258,11 +256,16 @@ impl Estimates {
         Interval { half_width: interval.half_width.filter(|_| is_resolved), ..interval }
     }
 
-    fn intervals(&self, replicate_lx: &[Vec<f64>], resolved: &[bool]) -> Vec<Interval> {
+    fn intervals(
+        &self,
+        replicate_lx: &[Vec<f64>],
+        is_sound: impl Fn(usize) -> bool,
+    ) -> Vec<Interval> {
         let t = t_quantile_for(replicate_lx.len(), self.miss_probability);
         let values = |point: usize| replicate_lx.iter().map(move |row| row[point]);
-        let t_at = |point: usize| t.filter(|_| resolved[point]);
-        (0..resolved.len()).map(|p| Interval::of_mean(values(p), t_at(p))).collect()
+        let t_at = |point: usize| t.filter(|_| is_sound(point));
+        let points = replicate_lx.first().map_or(0, Vec::len);
+        (0..points).map(|p| Interval::of_mean(values(p), t_at(p))).collect()
     }
 }
 
@@ -301,8 +304,7 @@ impl SensorEstimates {
         Self {
             replicate_lx: columns(&self.replicate_lx),
             direct_lx: self.direct_lx[points.clone()].to_vec(),
-            resolved: self.resolved[points.clone()].to_vec(),
-            missed: self.missed[points.clone()].to_vec(),
+            evidence: self.evidence[points.clone()].to_vec(),
             samples: self.samples[points.clone()].to_vec(),
             average: None,
             terms: self.terms.iter().map(term).collect(),
@@ -367,7 +369,7 @@ impl Estimates {
         let replicates_lx: Vec<f64> = replicate_lx.iter().map(sampled_lx).collect();
         let is_whole = !self.biased && self.invalid_contributions == 0;
         let most = |lx: &[f64]| lx[points.clone()].iter().copied().fold(0.0, f64::max);
-        let evidence = Evidence {
+        let measured = Measured {
             replicates_lx: &replicates_lx,
             computed_lx,
             most_lx: if is_whole { most(&totals.most_lx) } else { f64::INFINITY },
@@ -378,7 +380,7 @@ impl Estimates {
         let miss = 0.5 * (1.0 - self.confidence);
         let has_looks = self.miss_probability < 1.0 - self.confidence;
         let miss = if has_looks { miss_at_a_checkpoint(miss, samples) } else { miss };
-        (replicates_lx.len() > 1).then(|| CertifiedInterval::new(&evidence, miss))
+        (replicates_lx.len() > 1).then(|| CertifiedInterval::new(&measured, miss))
     }
 
     /// The illuminance in lx at most that no sample met in the average over a sensor's points, with

@@ -2,11 +2,11 @@
 //!
 //! [`tally`] holds the sums, [`interval`] and [`minimum`] how intervals are made, [`estimates`]
 //! those of sensor values, [`even_average`] those of averages, [`unseen`] what is left open beside
-//! them, [`certified`] intervals that hold for any number of samples, [`sequential`] what looking
-//! several times costs them, [`schedule`] and [`tolerance`] what the decision to stop needs
-//! (`run::simulate` takes it), [`convergence`] the prediction of the end, [`efficiency`] the choice
-//! between estimators, [`observer`] and [`watch`] the way out of a run, [`workers`] the way to
-//! other processes.
+//! them, [`point_status`] what a point waits for, [`certified`] intervals that hold for any number
+//! of samples, [`sequential`] what looking several times costs them, [`schedule`] and [`tolerance`]
+//! what the decision to stop needs (`run::simulate` takes it), [`convergence`] the prediction of
+//! the end, [`efficiency`] the choice between estimators, [`observer`] and [`watch`] the way out of
+//! a run, [`workers`] the way to other processes.
 
 pub mod certified;
 pub mod convergence;
@@ -18,6 +18,7 @@ pub mod interval;
 pub(crate) mod minimum;
 pub mod observer;
 pub(crate) mod picture;
+pub(crate) mod point_status;
 pub(crate) mod schedule;
 pub(crate) mod scores;
 pub(crate) mod sequential;

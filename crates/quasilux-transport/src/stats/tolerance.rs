@@ -3,12 +3,17 @@
 use crate::settings::{Settings, ToleranceOn};
 use crate::stats::estimates::{Estimates, SensorEstimates};
 use crate::stats::interval::Interval;
+use crate::stats::point_status::{Evidence, PointStatus};
+use crate::stats::schedule::MIN_SAMPLES;
 
 /// Paths or photons, all replicates together, that a point where nothing is found gets before a
 /// run may end without it.
 const MIN_TRIES: f64 = (1 << 14) as f64;
 /// The same where rare and bright light was missed: that more paths will meet it is certain.
-const MIN_TRIES_OF_MISSED: f64 = (1 << 20) as f64;
+const MIN_TRIES_OF_RARE_LIGHT: f64 = (1 << 20) as f64;
+
+/// Relative half-widths of what does not differ between replicates.
+const ROUNDING: f64 = 1e-12;
 
 /// How all targets stand at a checkpoint, in the order of their sensors.
 pub(crate) struct Standing {
@@ -22,6 +27,8 @@ pub(crate) struct Standing {
     pub(crate) unseen_excess: Vec<Option<f64>>,
     /// Whether more samples are of no use to a target.
     pub(crate) done: Vec<bool>,
+    /// What each target waits for, its number of samples left aside.
+    pub(crate) statuses: Vec<PointStatus>,
     /// Points where nothing was found yet.
     pub(crate) unresolved: u64,
     /// Whether all that has to reach the tolerance has.
@@ -42,12 +49,13 @@ impl Standing {
             excess: Vec::new(),
             unseen_excess: Vec::new(),
             done: Vec::new(),
+            statuses: Vec::new(),
             unresolved: 0,
             is_reached: is_wanted,
             may_end: is_wanted,
         };
         for (sensor, figures) in estimates.sensors.iter().enumerate() {
-            let unresolved = figures.resolved.iter().filter(|resolved| !**resolved).count();
+            let unresolved = figures.evidence.iter().filter(|own| !own.is_sound()).count();
             standing.unresolved += unresolved as u64;
             let points = estimates.point_intervals(sensor);
             standing.relative_widths.extend(points.iter().map(Interval::relative_half_width));
@@ -55,15 +63,20 @@ impl Standing {
             let unseen_lx = estimates.unseen_of_average(sensor);
             match settings.tolerance_on {
                 ToleranceOn::Points => {
-                    let average = yardstick.target(&average, unseen_lx, true);
+                    let average = yardstick.target(&average, unseen_lx, Evidence::Sound);
                     standing.add_points(figures, &points, average, &yardstick);
                 }
                 ToleranceOn::Summary => {
-                    let resolved =
-                        unresolved == 0 || yardstick.had_a_chance(figures.missed.contains(&true));
-                    let target = yardstick.target(&average, unseen_lx, resolved);
-                    let is_given_up = target.is_without_end() && yardstick.had_a_chance(false);
-                    points.iter().for_each(|_| standing.add(target, is_given_up));
+                    let worst = [Evidence::RareLight, Evidence::Dark]
+                        .into_iter()
+                        .find(|worst| figures.evidence.contains(worst))
+                        .filter(|worst| !yardstick.had_a_chance(*worst));
+                    let target =
+                        yardstick.target(&average, unseen_lx, worst.unwrap_or(Evidence::Sound));
+                    for own in &figures.evidence {
+                        let status = Target { evidence: *own, ..target }.status();
+                        standing.add(target, status, yardstick.gives_up(target));
+                    }
                 }
             }
         }
@@ -80,18 +93,16 @@ impl Standing {
         average: Target,
         yardstick: &Yardstick<'_>,
     ) {
-        let waits = !(average.is_without_end() && yardstick.had_a_chance(false));
+        let waits = !yardstick.gives_up(average);
         for (number, point) in points.iter().enumerate() {
             let unseen_lx = figures.unseen.as_ref().map(|unseen| unseen.point_lx[number]);
-            let resolved = figures.resolved[number];
-            let missed = figures.missed[number];
-            let own = yardstick.target(point, unseen_lx, resolved);
+            let own = yardstick.target(point, unseen_lx, figures.evidence[number]);
             let target = if waits { own.with(average) } else { own };
-            let is_given_up = match resolved {
-                true => target.is_without_end() && yardstick.had_a_chance(false),
-                false => yardstick.had_a_chance(missed),
+            let status = match own.status() {
+                PointStatus::Done if !target.is_done() => PointStatus::Average,
+                status => status,
             };
-            self.add(target, is_given_up);
+            self.add(target, status, yardstick.gives_up(target));
         }
     }
 
@@ -101,13 +112,39 @@ impl Standing {
         widths.reduce(|a, b| if a > b { a } else { b })
     }
 
-    fn add(&mut self, target: Target, is_given_up: bool) {
+    /// Whether a run of so many samples may call anything done. Without sensors there is nothing to
+    /// be wrong about, and what is not sampled is exact.
+    pub(crate) fn has_enough(&self, samples: u64, settings: &Settings) -> bool {
+        let is_exact =
+            settings.max_bounces == Some(0) && self.largest().is_some_and(|w| w < ROUNDING);
+        self.done.is_empty() || is_exact || samples >= MIN_SAMPLES
+    }
+
+    fn add(&mut self, target: Target, status: PointStatus, is_given_up: bool) {
         let done = target.is_done();
         self.excess.push(target.excess);
         self.unseen_excess.push(target.unseen_excess);
         self.done.push(done);
+        self.statuses.push(status);
         self.is_reached &= done;
         self.may_end &= done || is_given_up;
+    }
+}
+
+impl Estimates {
+    /// What the points of each sensor wait for, or that nothing is missing; `None` without a
+    /// tolerance.
+    #[must_use]
+    pub fn point_statuses(&self, settings: &Settings) -> Option<Vec<Vec<PointStatus>>> {
+        let standing = Standing::new(self, settings);
+        let has_enough = standing.has_enough(self.samples, settings);
+        let mut all = standing.statuses.into_iter().map(|status| match status {
+            PointStatus::Done if !has_enough => PointStatus::FewSamples,
+            status => status,
+        });
+        let points = self.sensors.iter().map(|sensor| sensor.samples.len());
+        let of_sensors = points.map(|points| all.by_ref().take(points).collect());
+        settings.has_tolerance().then(|| of_sensors.collect())
     }
 }
 
@@ -121,14 +158,21 @@ struct Yardstick<'s> {
 }
 
 impl Yardstick<'_> {
-    fn had_a_chance(&self, missed: bool) -> bool {
-        self.tries >= if missed { MIN_TRIES_OF_MISSED } else { MIN_TRIES }
+    fn had_a_chance(&self, evidence: Evidence) -> bool {
+        let is_rare = evidence == Evidence::RareLight;
+        self.tries >= if is_rare { MIN_TRIES_OF_RARE_LIGHT } else { MIN_TRIES }
     }
 
-    fn target(&self, interval: &Interval, unseen_lx: Option<f64>, resolved: bool) -> Target {
+    /// Whether a run need not wait for a target that is not done.
+    fn gives_up(&self, target: Target) -> bool {
+        let is_hopeless = !target.evidence.is_sound() || target.is_without_end();
+        is_hopeless && self.had_a_chance(target.evidence)
+    }
+
+    fn target(&self, interval: &Interval, unseen_lx: Option<f64>, evidence: Evidence) -> Target {
         let excess = excess(interval, self.settings).filter(|_| self.is_wanted);
         let unseen_excess = unseen_lx.map(|lx| unseen_excess(lx, interval.value, self.settings));
-        Target { excess, unseen_excess, resolved }
+        Target { excess, unseen_excess, evidence }
     }
 }
 
@@ -137,24 +181,33 @@ impl Yardstick<'_> {
 struct Target {
     excess: Option<f64>,
     unseen_excess: Option<f64>,
-    /// Whether light was found wherever it was looked for.
-    resolved: bool,
+    evidence: Evidence,
 }
 
 impl Target {
-    /// Both together: resolved where it is.
+    /// Both together, with its own evidence.
     fn with(self, other: Self) -> Self {
         let larger = |[a, b]: [Option<f64>; 2]| a.zip(b).map(|(a, b)| a.max(b));
         Self {
             excess: larger([self.excess, other.excess]),
             unseen_excess: larger([self.unseen_excess, other.unseen_excess]),
-            resolved: self.resolved,
+            evidence: self.evidence,
         }
     }
 
     fn is_done(&self) -> bool {
+        self.status() == PointStatus::Done
+    }
+
+    fn status(&self) -> PointStatus {
         let is_seen = self.unseen_excess.is_none_or(|excess| excess <= 1.0);
-        self.resolved && self.is_narrow() && is_seen
+        match self.evidence {
+            Evidence::Dark => PointStatus::Dark,
+            Evidence::RareLight => PointStatus::RareLight,
+            Evidence::Sound if !self.is_narrow() => PointStatus::HalfWidth,
+            Evidence::Sound if !is_seen => PointStatus::Unseen,
+            Evidence::Sound => PointStatus::Done,
+        }
     }
 
     /// Whether it is known well but for a bound that no number of samples brings down to nothing,
@@ -210,8 +263,7 @@ mod tests {
         let sensor = SensorEstimates {
             replicate_lx: (0..16).map(row).collect(),
             direct_lx: vec![0.0; n],
-            resolved: vec![true; n],
-            missed: vec![false; n],
+            evidence: vec![Evidence::Sound; n],
             samples: vec![1 << 10; n],
             average: None,
             terms: Vec::new(),
@@ -243,6 +295,30 @@ mod tests {
         assert_eq!(standing(&points, &strict).done, [false, false]);
         let off = Settings { unseen_tol: UnseenTolerance::Off, ..settings };
         assert!(standing(&points, &off).is_reached, "it is told, not waited for");
+    }
+
+    #[test]
+    fn points_say_what_they_wait_for() {
+        use PointStatus::{Average, Dark, Done, FewSamples, HalfWidth, Unseen};
+        let settings = Settings { rel_tol: 0.03, ..Settings::default() };
+        let statuses = |estimates: &Estimates, settings: &Settings| {
+            estimates.point_statuses(settings).map(|all| all.concat())
+        };
+        let points = [(100.0, 4.9), (100.0, 5.1)];
+        let estimates = made_up(&points, 0.0);
+        assert_eq!(statuses(&estimates, &settings), Some(vec![Done, Unseen]));
+        let narrow = Settings { rel_tol: 1e-5, ..settings.clone() };
+        assert_eq!(statuses(&estimates, &narrow), Some(vec![HalfWidth; 2]));
+        let open = made_up(&points, 50.0);
+        assert_eq!(statuses(&open, &settings), Some(vec![Average, Unseen]));
+        assert!(!Standing::new(&open, &settings).done[0], "it waits for the average");
+        let few = Estimates { samples: 64, ..estimates.clone() };
+        assert_eq!(statuses(&few, &settings), Some(vec![FewSamples, Unseen]));
+        let mut dark = estimates.clone();
+        dark.sensors[0].evidence[1] = Evidence::Dark;
+        assert_eq!(statuses(&dark, &settings), Some(vec![Done, Dark]));
+        let nothing_asked = Settings { rel_tol: 0.0, abs_tol_lx: 0.0, ..settings };
+        assert_eq!(statuses(&estimates, &nothing_asked), None);
     }
 
     /// `0 +- 0, at most 0.02 lx unseen` is an answer where so little is enough; where nothing is

@@ -19,6 +19,7 @@ use crate::settings::Settings;
 use crate::spectrum::Spectrum;
 use crate::stats::decisions::Decisions;
 use crate::stats::estimates::{Dimensions, Estimates, SensorEstimates, TermEstimates};
+use crate::stats::point_status::Evidence;
 use crate::stats::tally::{Quantum, Sum};
 use crate::stats::targets::{by_sensor, targets};
 use crate::stats::unseen::UnseenLight;
@@ -213,8 +214,7 @@ impl<S: Spectrum> Estimator for BidirectionalEstimator<'_, S> {
         let all = SensorEstimates {
             replicate_lx: self.rows(Exact::sum_lx, |sums| [sums.direct, sums.indirect]),
             direct_lx: direct_lx.into_iter().zip(exact_lx).map(|(a, b)| a + b).collect(),
-            resolved: vec![true; targets],
-            missed: vec![false; targets],
+            evidence: vec![Evidence::Sound; targets],
             samples: (0..targets).map(|target| self.samples_of(target)).collect(),
             average: None,
             terms: self.terms(),

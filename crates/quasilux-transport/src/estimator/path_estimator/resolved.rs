@@ -6,39 +6,46 @@ use crate::context::Context;
 use crate::lights::Asking;
 use crate::spectrum::Spectrum;
 use crate::stats::interval::Interval;
+use crate::stats::point_status::Evidence;
 use crate::stats::schedule::MIN_SAMPLES;
-use crate::stats::scores::Scores;
 use crate::stats::targets::Target;
 
 impl<S: Spectrum> PathEstimator<'_, S> {
-    /// Whether few paths make the spread of each target, where half-widths count.
-    pub(super) fn hidden_tails(&self, replicate_lx: &[Vec<f64>]) -> Vec<bool> {
-        let hides = |(target, scores): (usize, &Scores)| {
-            let values = replicate_lx.iter().map(|row| row[target]);
-            let standard_error_lx = Interval::of_mean(values, Some(1.0)).half_width;
-            let standard_error = standard_error_lx.unwrap_or_default() / self.quantum.reference();
-            self.samples_of(target) >= MIN_SAMPLES
-                && scores.hide_their_tail(self.paths_of(target), standard_error)
-        };
-        self.scores.iter().enumerate().map(hides).collect()
-    }
-
     /// Whether the paths of each target found light where they came to surfaces that reflect, and
     /// missed none that is rare and bright.
-    pub(super) fn resolved(&self, missed: &[bool]) -> Vec<bool> {
-        self.sums
-            .chunks_exact(self.replicates as usize)
-            .zip(&self.samples_direct)
-            .enumerate()
-            .map(|(target, (own, samples_direct))| {
-                let found_direct = own.iter().any(|sums| !sums.direct.is_zero());
-                let found_indirect = own.iter().any(|sums| !sums.indirect.is_zero());
-                let reflected = own.iter().any(|sums| sums.reflected > 0);
-                !missed[target]
-                    && (found_indirect || !reflected)
-                    && (found_direct || found_indirect || !samples_direct)
-            })
-            .collect()
+    pub(super) fn evidence(&self, replicate_lx: &[Vec<f64>]) -> Vec<Evidence> {
+        let of_target = |target: usize| {
+            let values = replicate_lx.iter().map(|row| row[target]);
+            match () {
+                () if self.hides_a_tail(target, values) => Evidence::RareLight,
+                () if self.found_light(target) => Evidence::Sound,
+                () => Evidence::Dark,
+            }
+        };
+        (0..self.targets.len()).map(of_target).collect()
+    }
+
+    /// Whether few paths make the spread of a target's replicates, where half-widths count.
+    fn hides_a_tail(
+        &self,
+        target: usize,
+        values: impl ExactSizeIterator<Item = f64> + Clone,
+    ) -> bool {
+        let standard_error_lx = Interval::of_mean(values, Some(1.0)).half_width;
+        let standard_error = standard_error_lx.unwrap_or_default() / self.quantum.reference();
+        let scores = self.scores.get(target);
+        self.samples_of(target) >= MIN_SAMPLES
+            && scores.is_some_and(|it| it.hide_their_tail(self.paths_of(target), standard_error))
+    }
+
+    fn found_light(&self, target: usize) -> bool {
+        let replicates = self.replicates as usize;
+        let own = &self.sums[target * replicates..(target + 1) * replicates];
+        let found_direct = own.iter().any(|sums| !sums.direct.is_zero());
+        let found_indirect = own.iter().any(|sums| !sums.indirect.is_zero());
+        let reflected = own.iter().any(|sums| sums.reflected > 0);
+        (found_indirect || !reflected)
+            && (found_direct || found_indirect || !self.samples_direct[target])
     }
 }
 

@@ -4,6 +4,7 @@ use super::Standing;
 use crate::settings::Settings;
 use crate::stats::estimates::{Estimates, SensorEstimates};
 use crate::stats::interval::Interval;
+use crate::stats::point_status::Evidence;
 use crate::stats::schedule::Schedule;
 use crate::stats::sequential::miss_probability_of_a_look;
 use quasilux_sampling::{PointSet, Randomization, Sequence};
@@ -63,8 +64,7 @@ impl Run {
         let sensor = SensorEstimates {
             replicate_lx: self.hits.iter().map(row).collect(),
             direct_lx: vec![0.0; POINTS],
-            resolved: vec![true; POINTS],
-            missed: vec![false; POINTS],
+            evidence: vec![Evidence::Sound; POINTS],
             samples: self.samples.clone(),
             average: None,
             terms: Vec::new(),
