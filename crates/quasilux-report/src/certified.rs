@@ -72,12 +72,14 @@ pub(crate) fn warnings(scene: &Scene, estimates: &Estimates, settings: &Settings
 mod tests {
     use super::*;
     use crate::example;
-    use quasilux_transport::UnseenLight;
+    use quasilux_transport::{IndexTotals, UnseenLight};
 
     /// With one look.
     fn bounded() -> (Scene, Estimates) {
         let (scene, mut estimates) = example::bounded();
         estimates.miss_probability = 1.0 - estimates.confidence;
+        let unseen: &mut UnseenLight = estimates.sensors[0].unseen.as_mut().expect("bounds");
+        unseen.totals = Some(IndexTotals::unknown(3));
         (scene, estimates)
     }
 
@@ -106,7 +108,7 @@ mod tests {
         let (scene, mut estimates) = bounded();
         let sensor = &mut estimates.sensors[0];
         let unseen: &mut UnseenLight = sensor.unseen.as_mut().expect("bounds");
-        unseen.totals.most_lx = vec![10.0; 3];
+        unseen.totals.as_mut().expect("totals").most_lx = vec![10.0; 3];
         sensor.samples = vec![1000, 1000, 500];
         let all = CertifiedFigures::new(&estimates, 0, &asked());
         let upper = all.points.expect("points")[0].upper.expect("a limit");

@@ -298,7 +298,7 @@ impl<S: Spectrum> Estimator for PathEstimator<'_, S> {
         let of_paths = cutoff::warning(work.endless, "paths", "values");
         let warnings = photons.warning().into_iter().chain(of_paths).collect();
         Estimates {
-            sensors: by_sensor(self.scene, &all),
+            sensors: by_sensor(self.scene, all),
             samples: self.samples,
             rays: work.rays + photons.rays,
             flux: photons.balance(self.context.lights.flux_lm),

@@ -206,7 +206,7 @@ impl<S: Spectrum> Estimator for PhotonEstimator<'_, S> {
 
     fn estimates(&self) -> Estimates {
         Estimates {
-            sensors: by_sensor(self.scene, &self.figures()),
+            sensors: by_sensor(self.scene, self.figures()),
             samples: self.samples,
             rays: self.plan.rays + self.photons.rays,
             flux: self.photons.balance(self.context.lights.flux_lm),

@@ -65,6 +65,22 @@ pub(crate) struct Measured<'r> {
 }
 
 impl IndexTotals {
+    /// Nothing is known of any point.
+    #[must_use]
+    pub fn unknown(points: usize) -> Self {
+        Self {
+            computed_lx: vec![0.0; points],
+            most_lx: vec![f64::INFINITY; points],
+            beyond_lx: vec![0.0; points],
+        }
+    }
+
+    /// Whether it has a row for each point.
+    pub(crate) fn has_points(&self, points: usize) -> bool {
+        let Self { computed_lx, most_lx, beyond_lx } = self;
+        [computed_lx, most_lx, beyond_lx].iter().all(|row| row.len() == points)
+    }
+
     /// Those of some of its points.
     pub(crate) fn part(&self, points: Range<usize>) -> Self {
         Self {

@@ -343,8 +343,8 @@ impl Estimates {
 }
 
 impl Estimates {
-    /// The certified intervals of all points of one sensor; `None` of estimators without bounds,
-    /// and of runs without replicates that differ.
+    /// The certified intervals of all points of one sensor; `None` where they were not
+    /// asked for, and of runs without replicates that differ.
     #[must_use]
     pub fn certified_points(&self, sensor: usize) -> Option<Vec<CertifiedInterval>> {
         let SensorEstimates { samples, .. } = &self.sensors[sensor];
@@ -361,7 +361,7 @@ impl Estimates {
     /// That of the mean of some points with equally many samples.
     fn certified(&self, sensor: usize, points: Range<usize>) -> Option<CertifiedInterval> {
         let SensorEstimates { replicate_lx, samples, unseen, .. } = &self.sensors[sensor];
-        let totals = &unseen.as_ref()?.totals;
+        let totals = unseen.as_ref()?.totals.as_ref()?;
         let samples = samples[points.clone()].iter().copied();
         let samples = samples.clone().min().filter(|least| samples.max() == Some(*least))?;
         let computed_lx = mean(&totals.computed_lx[points.clone()]);

@@ -35,7 +35,11 @@ pub(crate) fn targets(scene: &Scene) -> Vec<Target> {
 }
 
 /// The figures of each sensor, from those of all targets as if of one sensor.
-pub(crate) fn by_sensor(scene: &Scene, all: &SensorEstimates) -> Vec<SensorEstimates> {
+pub(crate) fn by_sensor(scene: &Scene, all: SensorEstimates) -> Vec<SensorEstimates> {
+    if scene.sensors.len() == 1 {
+        // A copy of many points would take long, and much memory.
+        return vec![all];
+    }
     let mut first = 0;
     scene
         .sensors

@@ -25,8 +25,8 @@ pub struct UnseenLight {
     pub merged_lx: Vec<f64>,
     /// Radius of that disc in m; `None` for cells, and where there is none.
     pub disc_radius_m: Vec<Option<f64>>,
-    /// What certified intervals are made of.
-    pub totals: IndexTotals,
+    /// What certified intervals are made of, where they were asked for.
+    pub totals: Option<IndexTotals>,
 }
 
 impl UnseenLight {
@@ -38,20 +38,14 @@ impl UnseenLight {
             average_lx: f64::INFINITY,
             merged_lx: vec![0.0; points],
             disc_radius_m: vec![None; points],
-            totals: IndexTotals {
-                computed_lx: vec![0.0; points],
-                most_lx: vec![f64::INFINITY; points],
-                beyond_lx: vec![0.0; points],
-            },
+            totals: None,
         }
     }
 
     /// Whether it has a row for each point.
     pub(crate) fn has_points(&self, points: usize) -> bool {
-        let IndexTotals { computed_lx, most_lx, beyond_lx } = &self.totals;
-        let of_totals = [computed_lx.len(), most_lx.len(), beyond_lx.len()];
         [self.point_lx.len(), self.merged_lx.len(), self.disc_radius_m.len()] == [points; 3]
-            && of_totals == [points; 3]
+            && self.totals.as_ref().is_none_or(|totals| totals.has_points(points))
     }
 
     /// That of some of its points: of their average no more is known than of each.
@@ -62,7 +56,7 @@ impl UnseenLight {
             point_lx,
             merged_lx: self.merged_lx[points.clone()].to_vec(),
             disc_radius_m: self.disc_radius_m[points.clone()].to_vec(),
-            totals: self.totals.part(points),
+            totals: self.totals.as_ref().map(|totals| totals.part(points)),
         }
     }
 }
@@ -99,7 +93,7 @@ mod tests {
             average_lx: 0.05,
             merged_lx: vec![0.0, 3.0],
             disc_radius_m: vec![Some(0.1), None],
-            totals: UnseenLight::unknown(2).totals,
+            totals: Some(IndexTotals::unknown(2)),
         }
     }
 

@@ -7,7 +7,7 @@ use crate::scenes::{
 use glam::DVec3;
 use quasilux_sampling::Sequence;
 use quasilux_scene::{Bsdf, Material, Scene};
-use quasilux_transport::{CertifiedInterval, Estimates, Settings, simulate};
+use quasilux_transport::{CertifiedInterval, Estimates, IntervalKind, Settings, simulate};
 use std::f64::consts::PI;
 
 /// Many replicates with few indices each: their number is what the lower limit hangs on.
@@ -17,7 +17,9 @@ const SEEDS: u64 = 100;
 
 fn settings(seed: u64, sequence: Sequence) -> Settings {
     let (rel_tol, max_samples) = (0.0, Some(INDICES));
-    Settings { rel_tol, max_samples, replicates: REPLICATES, seed, sequence, ..Settings::default() }
+    let interval = IntervalKind::Certified;
+    let replicates = REPLICATES;
+    Settings { rel_tol, max_samples, replicates, seed, sequence, interval, ..Settings::default() }
 }
 
 /// The first point and the average, over all seeds.

@@ -15,7 +15,7 @@ use crate::estimator::Estimator;
 use crate::estimator::block::BlockFrame;
 use crate::estimator::exact::{Exact, exact};
 use crate::path::sections::WorkCounts;
-use crate::settings::Settings;
+use crate::settings::{IntervalKind, Settings};
 use crate::spectrum::Spectrum;
 use crate::stats::decisions::Decisions;
 use crate::stats::estimates::{Dimensions, Estimates, SensorEstimates, TermEstimates};
@@ -33,7 +33,8 @@ pub(crate) struct BidirectionalEstimator<'a, S> {
     pub(super) engine: Engine<'a, 'a, S>,
     pub(super) scene: &'a Scene,
     caps: Caps,
-    /// What certified intervals know of indices.
+    /// Whether certified intervals were asked for, and what they know of indices.
+    is_certified: bool,
     samples_of_index: Option<SamplesOfIndex>,
     /// Of each target that is a point.
     exact: Vec<Exact>,
@@ -97,6 +98,7 @@ impl<'a, S: Spectrum> BidirectionalEstimator<'a, S> {
         let replicates = settings.effective_replicates();
         let empty = TargetSums::new(context.listed_terms);
         Some(Self {
+            is_certified: settings.interval == IntervalKind::Certified,
             samples_of_index: SamplesOfIndex::new(&engine, settings.sequence),
             caps,
             engine,
@@ -223,15 +225,17 @@ impl<S: Spectrum> Estimator for BidirectionalEstimator<'_, S> {
                 point_lx: unseen_lx,
                 merged_lx: self.mean_of(|sums| sums.merged),
                 disc_radius_m: self.engine.receivers.iter().map(|it| it.radius_m).collect(),
-                totals: index_totals(
-                    &self.engine,
-                    self.samples_of_index.as_ref(),
-                    self.exact.iter().map(Exact::sum_lx).collect(),
-                    trials,
-                ),
+                totals: self.is_certified.then(|| {
+                    index_totals(
+                        &self.engine,
+                        self.samples_of_index.as_ref(),
+                        self.exact.iter().map(Exact::sum_lx).collect(),
+                        trials,
+                    )
+                }),
             }),
         };
-        let mut sensors = by_sensor(self.scene, &all);
+        let mut sensors = by_sensor(self.scene, all);
         let mut first = 0;
         for sensor in &mut sensors {
             let Some(unseen) = &mut sensor.unseen else { continue };

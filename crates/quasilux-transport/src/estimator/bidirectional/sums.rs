@@ -15,13 +15,13 @@ pub(super) struct TargetSums {
     /// The part of both that photons brought.
     pub(super) merged: Sum,
     /// By the number of bounces, the last all from there on; empty where terms are not listed.
-    pub(super) terms: Vec<Sum>,
+    pub(super) terms: Box<[Sum]>,
 }
 
 impl TargetSums {
     pub(super) fn new(listed_terms: u32) -> Self {
         let terms = if listed_terms > 0 { listed_terms as usize + 1 } else { 0 };
-        Self { terms: vec![Sum::default(); terms], ..Self::default() }
+        Self { terms: vec![Sum::default(); terms].into(), ..Self::default() }
     }
 
     /// Adds light that came by so many surfaces and panes.
