@@ -130,9 +130,13 @@ impl Outcome {
         put("replicates_lx", rows.concat(), &[&[rows.len()], &shape[..]].concat())?;
         let samples = points().map(|point| point.samples).collect();
         arrays.set_item("samples", read_only(py, samples, &shape))?;
-        let statuses = points().map(|point| point.status.map(PointStatus::name));
-        arrays.set_item("status", statuses.collect::<Option<Vec<&str>>>())?;
         Ok(arrays)
+    }
+
+    /// What each point of a sensor waits for, or that it is done; `None` without a tolerance.
+    fn statuses(&self, index: usize) -> Option<Vec<&'static str>> {
+        let points = self.sensor(index).points.iter();
+        points.map(|point| point.status.map(PointStatus::name)).collect()
     }
 
     /// The arrays of a camera, by name, rows from the top; `None` where there is no picture.

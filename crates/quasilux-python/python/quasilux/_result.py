@@ -287,6 +287,7 @@ class Stored:
     grids_text: str
     stopped: str | None
     sensors: list[dict[str, Any]]
+    point_statuses: list[list[str] | None]
     cameras: list[dict[str, Any] | None]
     files: dict[str, bytes]
 
@@ -304,6 +305,7 @@ class Stored:
             grids_text=outcome.grids(),
             stopped=outcome.stopped,
             sensors=[outcome.sensor_arrays(i) for i in range(len(document["sensors"]))],
+            point_statuses=[outcome.statuses(i) for i in range(len(document["sensors"]))],
             cameras=[outcome.camera_arrays(i) for i in range(len(document["cameras"]))],
             files={name: outcome.file(name) or b"" for name in outcome.file_names()},
         )
@@ -327,6 +329,10 @@ class Stored:
     def sensor_arrays(self, index: int) -> dict[str, Any]:
         """Return the arrays of a sensor."""
         return {name: _read_only(array) for name, array in self.sensors[index].items()}
+
+    def statuses(self, index: int) -> list[str] | None:
+        """Return what each point of a sensor waits for."""
+        return self.point_statuses[index]
 
     def camera_arrays(self, index: int) -> dict[str, Any] | None:
         """Return the arrays of a camera."""

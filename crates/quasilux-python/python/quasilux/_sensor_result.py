@@ -180,7 +180,7 @@ class SensorResult:
         """
         import numpy as np
 
-        names = self._arrays["status"]
+        names = self._result._outcome.statuses(self._index)
         if names is None:
             return None
         status = np.array(names, np.str_).reshape(self.shape)
