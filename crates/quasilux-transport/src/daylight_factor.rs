@@ -17,15 +17,15 @@ use crate::prepared::PreparedScene;
 use crate::settings::{EstimatorKind, Settings};
 use crate::spectrum::{Spectrum, is_grey};
 use crate::stats::interval::{Interval, t_quantile_for};
+use crate::stats::schedule::MIN_SAMPLES;
+use crate::stats::sequential::Stopping;
 use crate::stats::targets::{Target, targets};
 use crate::stats::unseen::unseen_lx;
 use quasilux_scene::Rgb;
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Paths of each replicate at first, and at most for each sample that the illuminance took: most of
-/// them are short.
-const FIRST: u64 = 256;
+/// Paths of each replicate at most for each sample that the illuminance took: most are short.
 const PER_SAMPLE: u64 = 4;
 /// A component may take this share of the tolerance of the illuminance.
 const SHARE_OF_TOLERANCE: f64 = 0.5;
@@ -97,22 +97,24 @@ fn of_points<S: Spectrum>(
     let outside = context.lights.outside.as_ref().filter(|outside| outside.has_portals())?;
     let search = DaylightSearch { suns: &Suns::default(), only_from_beyond: true };
     let most_lx = SKY_MARGIN * outside.brightest_cd_m2() * most_of_a_path_lx(outside, &search);
+    let stopping = Stopping::new(settings);
+    let t = t_quantile_for(settings.effective_replicates() as usize, stopping.miss_probability);
     let point = |(number, target)| {
         let of = |replicate| TargetReplicate { number, target, replicate };
         let found = illuminances.get(number);
         let FoundIlluminance { lx, samples } = found.copied().unwrap_or_default();
-        let most = samples.saturating_mul(PER_SAMPLE).max(FIRST);
+        let mut schedule = stopping.looks(samples.saturating_mul(PER_SAMPLE).max(MIN_SAMPLES));
         let mut sums = vec![[0.0; 2]; settings.effective_replicates() as usize];
         let mut wave = PathWave::default();
         let mut paths = 0;
         loop {
-            let goal = (2 * paths).clamp(FIRST, most);
+            let goal = schedule.next_checkpoint();
             for (replicate, sums) in (0..).zip(&mut sums) {
                 add(context, of(replicate), paths..goal, &mut wave, sums);
             }
             paths = goal;
-            let found = components(settings, &sums, paths, most_lx);
-            if paths == most || found.are_known(settings, lx) || !goes_on() {
+            let found = components(&sums, paths, most_lx, t);
+            if found.are_known(settings, lx) || !goes_on() || !schedule.advance() {
                 return found;
             }
         }
@@ -144,13 +146,7 @@ fn add<S: Spectrum>(
 }
 
 /// What is known after so many paths of each replicate, each of which finds `most_lx` at most.
-fn components(
-    settings: &Settings,
-    sums: &[[f64; 2]],
-    paths: u64,
-    most_lx: f64,
-) -> DaylightComponents {
-    let t = t_quantile_for(sums.len(), 1.0 - settings.confidence);
+fn components(sums: &[[f64; 2]], paths: u64, most_lx: f64, t: Option<f64>) -> DaylightComponents {
     let [sky_lx, externally_reflected_lx] =
         [0, 1].map(|k| Interval::of_mean(sums.iter().map(|sums| sums[k] / paths as f64), t));
     // A path that finds something outside has one sample there.
@@ -159,16 +155,12 @@ fn components(
 }
 
 impl DaylightComponents {
-    /// Whether both are known well enough beside an illuminance in lx: where all replicates found
-    /// nothing, by the bound on what they did not see. Without a tolerance all paths are traced.
+    /// Whether both are known well enough beside an illuminance in lx. Without a tolerance all
+    /// paths are traced.
     fn are_known(&self, settings: &Settings, illuminance_lx: f64) -> bool {
         let enough_lx = SHARE_OF_TOLERANCE * settings.tolerance_lx(illuminance_lx);
-        let unseen_tolerance_lx = settings.unseen_tolerance_lx(illuminance_lx);
-        let is_dark = unseen_tolerance_lx
-            .is_none_or(|enough_lx| self.unseen_lx <= SHARE_OF_TOLERANCE * enough_lx);
         let is_known = |it: Interval| {
-            it.half_width.is_some_and(|half_width| half_width <= enough_lx)
-                && (it.value > 0.0 || is_dark)
+            it.or_unseen(self.unseen_lx).half_width.is_some_and(|width| width <= enough_lx)
         };
         settings.has_tolerance()
             && [self.sky_lx, self.externally_reflected_lx].into_iter().all(is_known)

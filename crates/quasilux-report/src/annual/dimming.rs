@@ -3,7 +3,6 @@
 use super::calendar::Calendar;
 use crate::Figure;
 use quasilux_scene::{ElectricLight, Scene, Sensor};
-use quasilux_transport::interval::t_quantile_for;
 use std::ops::Range;
 
 /// Electric light, with the daylight of its sensor as far as it is known.
@@ -15,6 +14,8 @@ pub struct Dimming {
     points: Range<usize>,
     /// The mean over the sensor in lx, by replicate and hour with light.
     mean_lx: Vec<Vec<f64>>,
+    /// Half-width over standard error of the intervals of points.
+    t: Option<f64>,
 }
 
 /// What lamps take in a year.
@@ -32,15 +33,16 @@ impl Dimming {
     pub fn begin(light: ElectricLight, scene: &Scene) -> Self {
         let first = scene.sensors.iter().take(light.sensor).map(Sensor::len).sum();
         let count = scene.sensors.get(light.sensor).map_or(0, Sensor::len);
-        Self { light, points: first..first + count, mean_lx: Vec::new() }
+        Self { light, points: first..first + count, mean_lx: Vec::new(), t: None }
     }
 
     /// Adds the illuminances of a point in lx, by replicate and hour with light, if it is one of
-    /// the sensor's.
-    pub(super) fn add(&mut self, number: usize, illuminance_lx: &[Vec<f32>]) {
+    /// the sensor's, and half-width over standard error of its intervals.
+    pub(super) fn add(&mut self, number: usize, illuminance_lx: &[Vec<f32>], t: Option<f64>) {
         if !self.looks_at(number) {
             return;
         }
+        self.t = t;
         let share = 1.0 / self.points.len() as f64;
         self.mean_lx.resize_with(illuminance_lx.len(), Vec::new);
         for (means, hours) in self.mean_lx.iter_mut().zip(illuminance_lx) {
@@ -59,7 +61,7 @@ impl Dimming {
     /// daylight to the least where daylight reaches the target. The half-width is that of the
     /// jackknife over replicates.
     #[must_use]
-    pub fn energy(&self, calendar: &Calendar, confidence: f64) -> EnergyOfYear {
+    pub fn energy(&self, calendar: &Calendar) -> EnergyOfYear {
         let replicates = self.mean_lx.len();
         let hours = self.mean_lx.first().map_or(0, Vec::len);
         let sum = |hour: usize| self.mean_lx.iter().map(|means| means[hour]).sum::<f64>();
@@ -72,8 +74,7 @@ impl Dimming {
             (without - value) * (without - value)
         });
         let error = (squares.sum::<f64>() * others / replicates.max(1) as f64).sqrt();
-        let t = t_quantile_for(replicates, 1.0 - confidence);
-        let dimmed_kwh = Figure { value: Some(value), half_width: t.map(|t| t * error) };
+        let dimmed_kwh = Figure { value: Some(value), half_width: self.t.map(|t| t * error) };
         let occupied_h = calendar.interval_h * calendar.count(|it| it.is_occupied) as f64;
         EnergyOfYear { dimmed_kwh, full_kwh: 1e-3 * self.light.power_w * occupied_h }
     }

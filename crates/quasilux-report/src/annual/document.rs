@@ -102,7 +102,7 @@ pub fn annual_json(report: &AnnualReport<'_>) -> String {
 /// Electric light and its energy.
 fn electric_light(report: &AnnualReport<'_>, dimming: &Dimming) -> Value {
     let light = dimming.light;
-    let energy = dimming.energy(report.calendar, report.run.settings.confidence);
+    let energy = dimming.energy(report.calendar);
     json!({
         "sensor": report.scene.sensors[light.sensor].name,
         "target_lx": light.target_lx,

@@ -12,8 +12,7 @@
 use super::calendar::Calendar;
 use super::measures::{Measure, Thresholds, measures};
 use crate::Figure;
-use quasilux_transport::PointOfYear;
-use quasilux_transport::interval::t_quantile_for;
+use quasilux_transport::{Interval, PointOfYear};
 use serde::{Deserialize, Serialize};
 
 /// What one sensor point has of a year.
@@ -52,6 +51,8 @@ pub struct PointOfHours {
     pub illuminance_lx: Vec<f32>,
     /// Their half-widths.
     pub half_width_lx: Vec<f32>,
+    /// Half-width over standard error of its intervals; `None` of a single replicate.
+    pub(super) t: Option<f64>,
     /// Illuminances in lx by replicate and hour with light; empty where nobody needs them any more.
     pub(super) by_replicate: Vec<Vec<f32>>,
 }
@@ -81,27 +82,18 @@ impl PointOfHours {
         Self { by_replicate: Vec::new(), ..self }
     }
 
-    /// What a point that was simulated has of the year, with intervals of this level of confidence.
+    /// What a point that was simulated has of the year, with intervals like those that it was
+    /// judged by.
     #[must_use]
-    pub fn new(
-        point: PointOfYear,
-        calendar: &Calendar,
-        thresholds: &Thresholds,
-        confidence: f64,
-    ) -> Self {
-        let t = t_quantile_for(point.illuminance_lx.len(), 1.0 - confidence);
+    pub fn new(point: PointOfYear, calendar: &Calendar, thresholds: &Thresholds) -> Self {
+        let t = point.t();
         let of_year = Replicates::new(&point.illuminance_lx);
         let of_sun = Replicates::new(&point.sun_lx);
         let values = measures(calendar, thresholds, &of_year.means, &of_sun.means);
         let errors = jackknife(calendar, thresholds, [&of_year, &of_sun], &values);
-        let [mut half_widths, of_sun_widths] =
-            [&of_year, &of_sun].map(|all| all.half_widths(t.unwrap_or(0.0)));
-        for (hour, half_width) in half_widths.iter_mut().enumerate() {
-            // Of zeros alone the spread says nothing, a bound does.
-            if of_year.means[hour] == 0.0 {
-                *half_width = f64::from(point.unseen_lx[hour]);
-            }
-        }
+        let width = |interval: Interval| interval.half_width.unwrap_or(0.0);
+        let half_widths: Vec<f64> = point.intervals_lx().into_iter().map(width).collect();
+        let of_sun_widths = of_sun.half_widths(t.unwrap_or(0.0));
         let of_hours = occupied(calendar, &of_year.means, &half_widths);
         let of_sunlight = occupied(calendar, &of_sun.means, &of_sun_widths);
         let half_width = |measure: Measure, t: f64| match measure.counted_lx(thresholds) {
@@ -133,6 +125,7 @@ impl PointOfHours {
             },
             illuminance_lx: by_interval(&of_year.means),
             half_width_lx: by_interval(&half_widths),
+            t,
             by_replicate: point.illuminance_lx,
         }
     }
@@ -164,16 +157,9 @@ impl<'r> Replicates<'r> {
 
     /// Half-widths of `t` standard errors, hour by hour.
     fn half_widths(&self, t: f64) -> Vec<f64> {
-        (0..self.means.len()).map(|hour| self.half_width(hour, t)).collect()
-    }
-
-    fn half_width(&self, hour: usize, t: f64) -> f64 {
-        let (n, mean) = (self.values.len() as f64, self.means[hour]);
-        let square = |replicate: &Vec<f32>| {
-            let off = f64::from(replicate[hour]) - mean;
-            off * off
-        };
-        t * (self.values.iter().map(square).sum::<f64>() / (n * (n - 1.0).max(1.0))).sqrt()
+        let of = |hour| self.values.iter().map(move |values| f64::from(values[hour]));
+        let half_width = |hour| Interval::of_mean(of(hour), Some(t)).half_width;
+        (0..self.means.len()).filter_map(half_width).collect()
     }
 }
 

@@ -136,7 +136,7 @@ impl<'a> AnnualReport<'a> {
     /// Adds the next point.
     pub fn push(&mut self, point: &PointOfHours) {
         if let Some(dimming) = &mut self.dimming {
-            dimming.add(self.points.len(), &point.by_replicate);
+            dimming.add(self.points.len(), &point.by_replicate, point.t);
         }
         self.equinox.push(point);
         let mut number = self.points.len();

@@ -62,7 +62,7 @@ pub fn annual_table(report: &AnnualReport<'_>) -> String {
 }
 
 fn write_electric_light(text: &mut String, report: &AnnualReport<'_>, dimming: &Dimming) {
-    let energy = dimming.energy(report.calendar, report.run.settings.confidence);
+    let energy = dimming.energy(report.calendar);
     let dimmed = figure_text(energy.dimmed_kwh).joined();
     let light = dimming.light;
     writeln!(

@@ -49,6 +49,7 @@ fn point(illuminance_lx: Vec<Vec<f32>>, sun_lx: [f32; 3]) -> PointOfYear {
         relative_half_width: Some(0.01),
         is_done: true,
         invalid: 0,
+        miss_probability: 0.04,
     }
 }
 
@@ -74,7 +75,7 @@ fn measures_are_counted_over_occupied_hours() {
     let calendar = calendar();
     // The evening is not occupied.
     let of_year = point(vec![vec![150.0, 4000.0, 90.0]; 2], [0.0, 1500.0, 0.0]);
-    let hours = PointOfHours::new(of_year, &calendar, &Thresholds::default(), 0.95);
+    let hours = PointOfHours::new(of_year, &calendar, &Thresholds::default());
     let measure = |measure| value(hours.summary.measure(measure));
     let share = 1.0 / 19.0;
     assert!((measure(Measure::Autonomy) - share).abs() < 1e-12);
@@ -98,9 +99,8 @@ fn intervals_come_from_replicates() {
     let calendar = calendar();
     let noon = [290.0, 302.0, 310.0, 304.0_f32];
     let replicates = noon.map(|lx| vec![100.0, lx, 0.5 * lx]).to_vec();
-    let hours =
-        PointOfHours::new(point(replicates, [0.0; 3]), &calendar, &Thresholds::default(), 0.9);
-    let t = t_quantile_for(4, 0.1).unwrap();
+    let hours = PointOfHours::new(point(replicates, [0.0; 3]), &calendar, &Thresholds::default());
+    let t = t_quantile_for(4, 0.04).unwrap();
     let mean = 301.5;
     let off = |lx: &f32| f64::from(*lx) - mean;
     let squares: f64 = noon.iter().map(|lx| off(lx) * off(lx)).sum();
@@ -112,7 +112,7 @@ fn intervals_come_from_replicates() {
     assert!((exposure.half_width.unwrap() - 1.5 * half_width).abs() < 1e-6);
     assert_eq!(hours.summary.hours, HourCounts { above: 0, below: 18, undecided: 1 });
     let alone = point(vec![vec![100.0, 400.0, 50.0]], [0.0; 3]);
-    let alone = PointOfHours::new(alone.clone(), &calendar, &Thresholds::default(), 0.9);
+    let alone = PointOfHours::new(alone.clone(), &calendar, &Thresholds::default());
     assert!(alone.summary.measures.iter().all(|figure| figure.half_width.is_none()));
 }
 
@@ -165,7 +165,7 @@ fn counts_of_hours_hold_the_truth() {
     let mut wide = [0.0; Measure::ALL.len()];
     for _ in 0..YEARS {
         let [truth, found] = noisy_year(&mut numbers)
-            .map(|point| PointOfHours::new(point, &calendar, &Thresholds::default(), 0.95).summary);
+            .map(|point| PointOfHours::new(point, &calendar, &Thresholds::default()).summary);
         for (number, measure) in Measure::ALL.into_iter().enumerate() {
             let [truth, found] = [&truth, &found].map(|summary| summary.measure(measure));
             let half_width = found.half_width.unwrap();
@@ -220,22 +220,22 @@ fn shares_of_points_have_bounds() {
 fn daylight_dims_lamps() {
     let calendar = calendar();
     let light = ElectricLight { sensor: 0, target_lx: 400.0, power_w: 1000.0, min_power_w: 100.0 };
+    let t = t_quantile_for(2, 0.04);
     let mut dimming = Dimming::begin(light, &scene_of_points(2));
-    dimming.add(0, &[vec![50.0, 900.0, 0.0], vec![70.0, 900.0, 0.0]]);
-    dimming.add(1, &[vec![150.0, 900.0, 0.0], vec![130.0, 900.0, 0.0]]);
-    dimming.add(2, &[vec![1e6; 3], vec![1e6; 3]]);
+    dimming.add(0, &[vec![50.0, 900.0, 0.0], vec![70.0, 900.0, 0.0]], t);
+    dimming.add(1, &[vec![150.0, 900.0, 0.0], vec![130.0, 900.0, 0.0]], t);
+    dimming.add(2, &[vec![1e6; 3], vec![1e6; 3]], t);
     // 17 hours in the dark, one with a quarter of the target, one with more than it.
-    let EnergyOfYear { dimmed_kwh, full_kwh } = dimming.energy(&calendar, 0.95);
+    let EnergyOfYear { dimmed_kwh, full_kwh } = dimming.energy(&calendar);
     let expected = 17.0 + (0.1 + 0.9 * 0.75) + 0.1;
     assert!((value(dimmed_kwh) - expected).abs() < 1e-9, "{dimmed_kwh:?}");
     assert_eq!((full_kwh, dimmed_kwh.half_width), (19.0, Some(0.0)));
     let mut noisy = Dimming::begin(light, &scene_of_points(1));
-    noisy.add(0, &[vec![100.0, 900.0, 0.0], vec![140.0, 900.0, 0.0]]);
+    noisy.add(0, &[vec![100.0, 900.0, 0.0], vec![140.0, 900.0, 0.0]], t);
     // Means of 100 and 140 lx are 20 lx from their mean: so many times the slope is the error.
     let error = 20.0 / 400.0 * 0.9;
-    let t = t_quantile_for(2, 0.05).unwrap();
-    let found = noisy.energy(&calendar, 0.95).dimmed_kwh.half_width.unwrap();
-    assert!((found / (t * error) - 1.0).abs() < 1e-9, "{found}");
+    let found = noisy.energy(&calendar).dimmed_kwh.half_width.unwrap();
+    assert!((found / (t.unwrap() * error) - 1.0).abs() < 1e-9, "{found}");
 }
 
 fn scene_of_points(count: usize) -> Scene {
@@ -295,7 +295,7 @@ fn sheets_of_the_equinox_are_of_the_clearest_day() {
     let lx: Vec<f32> = (0..hours).map(|hour| hour as f32).collect();
     let of_year =
         PointOfYear { sun_lx: vec![vec![0.0; hours]; 2], ..point(vec![lx.clone(), lx], [0.0; 3]) };
-    let hours = PointOfHours::new(of_year, &calendar, &Thresholds::default(), 0.95);
+    let hours = PointOfHours::new(of_year, &calendar, &Thresholds::default());
     sheets.push(&hours);
     let text = sheets.csv(&scene_of_points(1).sensors[0], 0, &calendar).unwrap();
     let [head, line] = [0, 1].map(|n| text.lines().nth(n).unwrap());

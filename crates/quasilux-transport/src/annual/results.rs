@@ -1,6 +1,8 @@
 //! What a run over a year finds.
 
 use crate::settings::Settings;
+use crate::stats::interval::{Interval, t_quantile_for};
+use crate::stats::sequential::Stopping;
 
 /// What the hours of one sensor point are, in all replicates.
 #[derive(Clone, Debug)]
@@ -12,8 +14,7 @@ pub struct PointOfYear {
     /// What comes straight from the sun while blinds are open, whether they are or not.
     pub sun_lx: Vec<Vec<f32>>,
     /// Skylight in lx, hour by hour, that may come by ways on which no path lay, at most, with
-    /// [`UNSEEN_CONFIDENCE`](crate::unseen::UNSEEN_CONFIDENCE): where all replicates found nothing,
-    /// the half-width of that.
+    /// [`UNSEEN_CONFIDENCE`](crate::unseen::UNSEEN_CONFIDENCE).
     pub unseen_lx: Vec<f32>,
     /// Paths in each replicate, of all states of the blinds.
     pub samples: u64,
@@ -24,6 +25,9 @@ pub struct PointOfYear {
     pub is_done: bool,
     /// Contributions that could not be added.
     pub invalid: u64,
+    /// Of the intervals that the point was judged by: less than what remains to the confidence of
+    /// the settings where looks had a choice, which makes up for it.
+    pub miss_probability: f64,
 }
 
 /// How far a run is.
@@ -61,6 +65,32 @@ impl PointOfYear {
             relative_half_width: Some(0.0),
             is_done: true,
             invalid: 0,
+            miss_probability: Stopping::new(settings).miss_probability,
         }
     }
+
+    /// Half-width over standard error of what replicates say; `None` of fewer than two.
+    #[must_use]
+    pub fn t(&self) -> Option<f64> {
+        t_quantile_for(self.illuminance_lx.len(), self.miss_probability)
+    }
+
+    /// The hours in lx. Where all replicates found nothing, `unseen_lx` is the half-width.
+    #[must_use]
+    pub fn intervals_lx(&self) -> Vec<Interval> {
+        intervals_lx(&self.illuminance_lx, &self.unseen_lx, self.t())
+    }
+}
+
+/// The hours that replicates have in lx, with what may come by ways on which no path lay.
+pub(super) fn intervals_lx(
+    by_replicate: &[Vec<f32>],
+    unseen_lx: &[f32],
+    t: Option<f64>,
+) -> Vec<Interval> {
+    let of_hour = |(hour, unseen_lx): (usize, &f32)| {
+        let values = by_replicate.iter().map(|values| f64::from(values[hour]));
+        Interval::of_mean(values, t).or_unseen(f64::from(*unseen_lx))
+    };
+    unseen_lx.iter().enumerate().map(of_hour).collect()
 }

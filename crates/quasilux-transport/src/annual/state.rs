@@ -3,7 +3,7 @@
 
 use super::coefficients::{Meshes, Sums};
 use super::hours::HourTable;
-use super::results::{PointOfYear, YearWork};
+use super::results::{PointOfYear, YearWork, intervals_lx};
 use super::sun_disks::{ShiningSun, SunDisks, SunLight};
 use crate::context::Context;
 use crate::lights::Suns;
@@ -13,21 +13,18 @@ use crate::path::trace::outside::most_of_a_path_lx;
 use crate::path::wave::PathWave;
 use crate::settings::Settings;
 use crate::spectrum::Spectrum;
-use crate::stats::interval::t_quantile_for;
+use crate::stats::interval::{Interval, t_quantile_for};
+use crate::stats::sequential::Stopping;
 use crate::stats::targets::Target;
 use crate::stats::unseen::unseen_lx;
 use crate::stats::watch::split;
 use quasilux_scene::Environment;
 use quasilux_sky::{TabulatedSky, WeatherSky};
 use rayon::prelude::*;
+use std::borrow::Borrow;
 
-/// Paths of each point in each replicate at first, and at most where nobody says.
-const FIRST: u64 = 128;
+/// Paths of each point in each replicate at most where nobody says.
 const MOST: u64 = 1 << 16;
-/// Half-widths shrink about like N to this power.
-const SLOPE: f64 = -0.6;
-/// From one look to the next the number of paths grows by this factor at most.
-const GROWTH: f64 = 16.0;
 /// Paths between two questions whether to go on.
 const AT_ONCE: u64 = 1 << 12;
 /// Hours that say whether a point is known well enough.
@@ -60,6 +57,7 @@ pub(super) struct State<'y, S> {
     probes: Vec<HourTable>,
     probed: Vec<usize>,
     suns: Vec<ShiningSun>,
+    stopping: Stopping,
     t: Option<f64>,
     /// The most in lx that one path finds of the sky or the ground, in its own hours and in those
     /// that are probed.
@@ -74,8 +72,6 @@ pub(super) struct PointInWork<'t> {
     /// By replicate.
     sums: Vec<Sums>,
     disks: SunDisks,
-    /// Paths of each replicate that it is to have next.
-    goal: u64,
     relative_half_width: Option<f64>,
     is_done: bool,
 }
@@ -84,14 +80,6 @@ pub(super) struct PointInWork<'t> {
 struct Unit<'t, 's> {
     place: TargetReplicate<'t>,
     sums: &'s mut Sums,
-    goal: u64,
-}
-
-impl PointInWork<'_> {
-    /// Whether it wants more paths, and may have them.
-    fn is_open(&self) -> bool {
-        !self.is_done && self.sums.first().is_some_and(|sums| sums.paths < self.goal)
-    }
 }
 
 impl<'y, S: Spectrum> State<'y, S> {
@@ -126,6 +114,7 @@ impl<'y, S: Spectrum> State<'y, S> {
         };
         let (tables, probes) = (tables(&own), tables(&probed));
         let most_lx = most_lx(context, &tables);
+        let stopping = Stopping::new(settings);
         Self {
             context,
             settings,
@@ -138,7 +127,8 @@ impl<'y, S: Spectrum> State<'y, S> {
             probed,
             meshes,
             suns,
-            t: t_quantile_for(replicates as usize, 1.0 - settings.confidence),
+            stopping,
+            t: t_quantile_for(replicates as usize, stopping.miss_probability),
         }
     }
 
@@ -160,62 +150,53 @@ impl<'y, S: Spectrum> State<'y, S> {
                 target,
                 sums,
                 disks,
-                goal: FIRST.min(self.limit()),
                 relative_half_width: None,
                 is_done: false,
             }
         };
         let mut points: Vec<PointInWork<'t>> = targets.par_iter().enumerate().map(begin).collect();
         work.rays += points.iter().map(|point| point.disks.deciding_rays).sum::<u64>();
-        while points.iter().any(PointInWork::is_open) && goes_on() {
-            self.trace(&mut points, work, goes_on);
-            self.look(&mut points);
+        let mut schedule = self.stopping.looks(self.settings.max_samples.unwrap_or(MOST));
+        while goes_on() {
+            let mut open: Vec<_> = points.iter_mut().filter(|point| !point.is_done).collect();
+            self.trace(&mut open, schedule.next_checkpoint(), work, goes_on);
+            self.look(&mut open, schedule.is_look());
+            if points.iter().all(|point| point.is_done) || !schedule.advance() {
+                break;
+            }
         }
         points
     }
 
-    /// Paths up to which a point that is known so well is traced next: the next power of two that
-    /// should do.
-    fn next(&self, samples: u64, known: f64) -> u64 {
-        let excess = (known / self.settings.rel_tol).max(1.0);
-        let factor = libm::pow(excess, -1.0 / SLOPE).clamp(2.0, GROWTH);
-        let next = samples.saturating_mul(1 << (libm::log2(factor).floor() as u32).max(1));
-        next.min(self.limit())
-    }
-
-    /// Most paths of a point in a replicate.
-    fn limit(&self) -> u64 {
-        self.settings.max_samples.unwrap_or(MOST)
-    }
-
-    /// Traces the points that are open up to their goals.
+    /// Traces points up to so many paths of each replicate.
     fn trace(
         &self,
-        points: &mut [PointInWork<'_>],
+        points: &mut [&mut PointInWork<'_>],
+        goal: u64,
         work: &mut YearWork,
         goes_on: &(dyn Fn() -> bool + Sync),
     ) {
-        let look_at_suns = |point: &mut PointInWork<'_>| {
-            let PointInWork { number, target, disks, goal, .. } = point;
+        let look_at_suns = |point: &mut &mut PointInWork<'_>| {
+            let PointInWork { number, target, disks, .. } = &mut **point;
             let replicates = 0..self.meshes.len() as u32;
             let place = |replicate| TargetReplicate { number: *number, target, replicate };
-            let mut look = |place| disks.trace(self.context, place, &self.suns, *goal);
+            let mut look = |place| disks.trace(self.context, place, &self.suns, goal);
             replicates.map(place).map(&mut look).sum::<u64>()
         };
-        let open = points.par_iter_mut().filter(|point| point.is_open());
-        work.rays += open.map(look_at_suns).sum::<u64>();
-        let open = points.iter_mut().filter(|point| point.is_open());
-        let mut units: Vec<Unit<'_, '_>> = open
-            .flat_map(|PointInWork { number, target, sums, goal, .. }| {
+        work.rays += points.par_iter_mut().map(look_at_suns).sum::<u64>();
+        let mut units: Vec<Unit<'_, '_>> = points
+            .iter_mut()
+            .flat_map(|point| {
+                let PointInWork { number, target, sums, .. } = &mut **point;
                 let place = |replicate| TargetReplicate { number: *number, target, replicate };
-                let unit = |(replicate, sums)| Unit { place: place(replicate), sums, goal: *goal };
+                let unit = |(replicate, sums)| Unit { place: place(replicate), sums };
                 (0..).zip(sums).map(unit).collect::<Vec<_>>()
             })
             .collect();
-        let trace = |wave: &mut PathWave<S>, Unit { place, sums, goal }: &mut Unit<'_, '_>| {
+        let trace = |wave: &mut PathWave<S>, Unit { place, sums }: &mut Unit<'_, '_>| {
             let mesh = &self.meshes[place.replicate as usize];
             let mut counts = [0; 2];
-            for indices in split(sums.paths..*goal, AT_ONCE).take_while(|_| goes_on()) {
+            for indices in split(sums.paths..goal, AT_ONCE).take_while(|_| goes_on()) {
                 counts[1] += indices.end - indices.start;
                 counts[0] += sums.trace(self.context, mesh, *place, indices, wave);
             }
@@ -229,15 +210,13 @@ impl<'y, S: Spectrum> State<'y, S> {
         }
     }
 
-    /// Finds out how well the probed hours of the points that are open are known, and how many
-    /// paths should do.
-    fn look(&self, points: &mut [PointInWork<'_>]) {
-        let open: Vec<&PointInWork<'_>> = points.iter().filter(|point| !point.is_done).collect();
-        let mut values = self.values(&open, &self.probes);
+    /// Finds out how well the probed hours of points are known, and which points are done where
+    /// they may be.
+    fn look(&self, points: &mut [&mut PointInWork<'_>], may_be_done: bool) {
+        let mut values = self.values(points, &self.probes);
         let mut place = vec![None; self.hours.skies.len()];
         self.probed.iter().enumerate().for_each(|(own, &hour)| place[hour] = Some(own));
-        let open = points.iter_mut().filter(|point| !point.is_done);
-        for (point, all) in open.zip(&mut values) {
+        for (point, all) in points.iter_mut().zip(&mut values) {
             for (replicate, values) in all.iter_mut().enumerate() {
                 for SunLight { hour, lx } in point.disks.illuminances_lx(&self.suns, replicate) {
                     place[hour].into_iter().for_each(|own: usize| values[own] += lx);
@@ -247,10 +226,10 @@ impl<'y, S: Spectrum> State<'y, S> {
             let floor_lx = if tolerance > 0.0 { self.settings.abs_tol_lx / tolerance } else { 0.0 };
             let unseen = self.unseen_of_a_path(point.sums[0].paths);
             let unseen_lx: Vec<f32> = self.most_probed_lx.iter().map(|lx| unseen * lx).collect();
-            let known = self.t.map(|t| relative_half_width(all, &unseen_lx, t, floor_lx));
+            let known = relative_half_width(&intervals_lx(all, &unseen_lx, self.t), floor_lx);
+            let is_within = tolerance > 0.0 && known.is_some_and(|known| known <= tolerance);
             point.relative_half_width = known;
-            point.is_done = tolerance > 0.0 && known.is_some_and(|known| known <= tolerance);
-            point.goal = self.next(point.goal, known.unwrap_or(f64::INFINITY));
+            point.is_done = is_within && may_be_done;
         }
     }
 
@@ -263,9 +242,12 @@ impl<'y, S: Spectrum> State<'y, S> {
     }
 
     /// The hours of tables, by point and replicate, but for what comes straight from the sun.
-    fn values(&self, points: &[&PointInWork<'_>], tables: &[HourTable]) -> Vec<Vec<Vec<f32>>> {
+    fn values<'t, P>(&self, points: &[P], tables: &[HourTable]) -> Vec<Vec<Vec<f32>>>
+    where
+        P: Borrow<PointInWork<'t>> + Sync,
+    {
         let of_replicate = |(replicate, table): (usize, &HourTable)| {
-            let coefficients = |point: &&PointInWork<'_>| point.sums[replicate].coefficients();
+            let coefficients = |point: &P| point.borrow().sums[replicate].coefficients();
             table.illuminances_lx(&points.iter().map(coefficients).collect::<Vec<_>>())
         };
         let by_replicate: Vec<Vec<Vec<f32>>> =
@@ -279,7 +261,7 @@ impl<'y, S: Spectrum> State<'y, S> {
 
     /// Adds what is known of points that are over to their years.
     pub(super) fn add_to(&self, points: &[PointInWork<'_>], years: &mut [PointOfYear]) {
-        let values = self.values(&points.iter().collect::<Vec<_>>(), &self.tables);
+        let values = self.values(points, &self.tables);
         let all = points.iter().zip(values).zip(years);
         all.for_each(|((point, values), year)| self.add_point(point, &values, year));
     }
@@ -327,24 +309,11 @@ fn most_lx<S: Spectrum>(context: &Context<'_, S>, tables: &[HourTable]) -> Vec<f
     brightest.unwrap_or_default().iter().map(|cd_m2| of_1_cd_m2 * cd_m2).collect()
 }
 
-/// The root mean square over hours of half-width over value, or over a floor where that is more. An
-/// hour of which all replicates found nothing is known as well as its bound on unseen light says.
-fn relative_half_width(by_replicate: &[Vec<f32>], unseen_lx: &[f32], t: f64, floor_lx: f64) -> f64 {
-    let n = by_replicate.len() as f64;
-    let hours = by_replicate.first().map_or(0, Vec::len);
-    let square = |hour: usize| {
-        let values = by_replicate.iter().map(|values| f64::from(values[hour]));
-        let mean = values.clone().sum::<f64>() / n;
-        let squares: f64 = values.map(|x| (x - mean) * (x - mean)).sum();
-        let unseen_lx = f64::from(unseen_lx[hour]);
-        if mean == 0.0 {
-            return (unseen_lx > 0.0).then(|| unseen_lx * unseen_lx / (floor_lx * floor_lx));
-        }
-        let over = mean.max(floor_lx);
-        Some(t * t * squares / ((n - 1.0) * n * over * over))
-    };
-    let (sum, count) = (0..hours)
-        .filter_map(square)
-        .fold((0.0, 0), |(sum, count), square| (sum + square, count + 1));
-    (sum / f64::from(count.max(1))).sqrt()
+/// The root mean square over hours with light of half-width over value, or over a floor where that
+/// is more; `None` without half-widths.
+fn relative_half_width(hours: &[Interval], floor_lx: f64) -> Option<f64> {
+    let is_lit = |it: &&Interval| it.value > 0.0 || it.half_width != Some(0.0);
+    let relative = |it: &Interval| Some(it.half_width? / it.value.max(floor_lx));
+    let all: Vec<f64> = hours.iter().filter(is_lit).map(relative).collect::<Option<_>>()?;
+    Some((all.iter().map(|width| width * width).sum::<f64>() / all.len().max(1) as f64).sqrt())
 }

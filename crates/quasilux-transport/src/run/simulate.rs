@@ -15,7 +15,7 @@ use crate::stats::decisions::Decisions;
 use crate::stats::estimates::Estimates;
 use crate::stats::observer::{Control, Observer};
 use crate::stats::schedule::{MIN_SAMPLES, Schedule};
-use crate::stats::sequential::miss_probability_of_a_look;
+use crate::stats::sequential::Stopping;
 use crate::stats::tolerance::Standing;
 use crate::stats::watch::Watch;
 use crate::stats::workers::Workers;
@@ -217,27 +217,6 @@ impl<S: Spectrum> Steps<'_, '_, S> {
                 break;
             }
         }
-    }
-}
-
-/// When a run may end, and what its intervals are to miss.
-struct Stopping {
-    /// Whether it may end before its limit.
-    may_end: bool,
-    /// Of the interval of each target at each look.
-    miss_probability: f64,
-}
-
-impl Stopping {
-    fn new(settings: &Settings) -> Self {
-        // Part of a set whose number of points is fixed would leave part of its lights out.
-        let may_end = settings.sequence.points().is_none();
-        let mut miss_probability = 1.0 - settings.confidence;
-        if may_end && settings.has_tolerance() {
-            let replicates = settings.effective_replicates();
-            miss_probability = miss_probability_of_a_look(miss_probability, replicates);
-        }
-        Self { may_end, miss_probability }
     }
 }
 

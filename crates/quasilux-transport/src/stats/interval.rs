@@ -28,6 +28,15 @@ impl Interval {
         Self { value, half_width }
     }
 
+    /// The interval of light, which is never negative: where all replicates found nothing, their
+    /// spread says nothing, and a bound on light that no sample met stands for the half-width.
+    #[must_use]
+    pub fn or_unseen(self, unseen_lx: f64) -> Self {
+        let is_dark = self.value == 0.0;
+        let half_width = self.half_width.map(|spread| if is_dark { unseen_lx } else { spread });
+        Self { half_width, ..self }
+    }
+
     /// Half-width over value; `None` without a half-width, 0 where the half-width is 0.
     #[must_use]
     pub fn relative_half_width(&self) -> Option<f64> {
@@ -106,6 +115,18 @@ fn incomplete_beta(a: f64, b: f64, x: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// One value above zero is light that was found.
+    #[test]
+    fn of_zeros_alone_the_bound_is_the_half_width() {
+        let t = t_quantile_for(4, 0.05);
+        let of = |values: [f64; 4], t| Interval::of_mean(values.into_iter(), t);
+        let dark = of([0.0; 4], t).or_unseen(0.3);
+        assert_eq!(dark, Interval { value: 0.0, half_width: Some(0.3) });
+        assert_eq!(of([0.0; 4], None).or_unseen(0.3).half_width, None);
+        let found = of([0.0, 0.0, 1e-9, 0.0], t);
+        assert_eq!(found.or_unseen(0.3), found);
+    }
 
     /// Two-sided quantiles as printed in Abramowitz and Stegun (1964), table 26.10.
     #[test]

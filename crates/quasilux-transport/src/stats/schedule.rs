@@ -33,6 +33,19 @@ impl Schedule {
         Self { first, limit, next: first }
     }
 
+    /// The checkpoints of a figure that nothing is planned for: the first is the first where it may
+    /// be called done, or the limit.
+    pub(crate) fn of_looks(limit: u64) -> Self {
+        let schedule = Self::new(1, Some(limit));
+        Self { next: schedule.at_or_after(MIN_SAMPLES), ..schedule }
+    }
+
+    /// The only checkpoint is at the limit.
+    pub(crate) fn of_one_look(limit: u64) -> Self {
+        let schedule = Self::new(1, Some(limit));
+        Self { next: schedule.limit, ..schedule }
+    }
+
     /// Advances to where the stored schedule of the same run stands.
     pub(crate) fn advance_to(&mut self, stored: Self) -> Result<(), StateError> {
         let next = stored.next;
@@ -94,6 +107,18 @@ mod tests {
         assert_eq!(checkpoints(16, Some(100)), [16, 32, 64, 100]);
         assert_eq!(checkpoints(16, Some(64)), [16, 32, 64]);
         assert_eq!(checkpoints(16, Some(3)), [3]);
+    }
+
+    /// Too few samples are no look, not even where a limit ends the run.
+    #[test]
+    fn without_a_plan_the_first_checkpoint_is_a_look() {
+        for (limit, first, is_look) in [(64, 64, false), (200, 128, true), (1 << 20, 128, true)] {
+            let schedule = Schedule::of_looks(limit);
+            assert_eq!((schedule.next_checkpoint(), schedule.is_look()), (first, is_look));
+            let mut one = Schedule::of_one_look(limit);
+            assert_eq!((one.next_checkpoint(), one.is_look()), (limit, limit >= MIN_SAMPLES));
+            assert!(!one.advance());
+        }
     }
 
     #[test]

@@ -22,6 +22,9 @@
 //! A budget that all looks share (Bonferroni) would be safe too, and too safe: most runs end at
 //! their first good look, and the rest of the budget is left over.
 
+use crate::settings::Settings;
+use crate::stats::schedule::Schedule;
+
 /// See above.
 const EXPONENT: f64 = 1.25;
 
@@ -30,6 +33,33 @@ const EXPONENT: f64 = 1.25;
 pub(crate) fn miss_probability_of_a_look(miss_probability: f64, replicates: u32) -> f64 {
     let degrees = f64::from(replicates.max(2) - 1);
     libm::pow(miss_probability, 1.0 + EXPONENT / degrees)
+}
+
+/// When a run may end, and what its intervals are to miss.
+#[derive(Clone, Copy)]
+pub(crate) struct Stopping {
+    /// Whether it may end before its limit.
+    pub(crate) may_end: bool,
+    /// Of the interval of each target at each look.
+    pub(crate) miss_probability: f64,
+}
+
+impl Stopping {
+    pub(crate) fn new(settings: &Settings) -> Self {
+        // Part of a set whose number of points is fixed would leave part of its lights out.
+        let may_end = settings.sequence.points().is_none();
+        let mut miss_probability = 1.0 - settings.confidence;
+        if may_end && settings.has_tolerance() {
+            let replicates = settings.effective_replicates();
+            miss_probability = miss_probability_of_a_look(miss_probability, replicates);
+        }
+        Self { may_end, miss_probability }
+    }
+
+    /// The checkpoints, up to a limit, of a figure that nothing is planned for.
+    pub(crate) fn looks(self, limit: u64) -> Schedule {
+        if self.may_end { Schedule::of_looks(limit) } else { Schedule::of_one_look(limit) }
+    }
 }
 
 #[cfg(test)]

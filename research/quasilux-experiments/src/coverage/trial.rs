@@ -2,7 +2,6 @@
 
 use super::count::{Figure, Moment};
 use super::known_scene::KnownScene;
-use quasilux_transport::interval::t_quantile_for;
 use quasilux_transport::{
     Control, Estimates, Interval, Observer, PointOfYear, Settings, YearHours, YearRun, simulate,
     simulate_year,
@@ -111,17 +110,13 @@ fn hours(known: &KnownScene, settings: &Settings) -> End {
         goes_on: &|| true,
     };
     simulate_year(run, &mut points);
-    let t = t_quantile_for(settings.replicates as usize, 1.0 - settings.confidence);
     let hours = known.hours.len();
-    let of_hour = |point: &PointOfYear, hour: usize| {
-        Interval::of_mean(point.illuminance_lx.iter().map(|lx| f64::from(lx[hour])), t)
-    };
-    let all: Vec<Interval> =
-        points.iter().flat_map(|it| (0..hours).map(|hour| of_hour(it, hour))).collect();
+    let all: Vec<Interval> = points.iter().flat_map(PointOfYear::intervals_lx).collect();
     let mean = |replicate: usize| {
         let values = points.iter().flat_map(|point| &point.illuminance_lx[replicate]);
         values.map(|lx| f64::from(*lx)).sum::<f64>() / all.len() as f64
     };
+    let t = points.first().and_then(PointOfYear::t);
     let average = Interval::of_mean((0..settings.replicates as usize).map(mean), t);
     let least = all.iter().copied().min_by(|a, b| a.value.total_cmp(&b.value));
     let least = least.expect("a scene with hours has points");

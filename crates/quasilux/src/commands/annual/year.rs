@@ -148,10 +148,10 @@ impl<'p> Year<'p> {
         let closed = closed
             .map(|(Blinds { closed: scene, .. }, is_closed)| ClosedHours { scene, is_closed });
         let hours = YearHours { skies: &self.calendar.skies, closed };
-        let (thresholds, confidence) = (Thresholds::default(), self.settings.confidence);
+        let thresholds = Thresholds::default();
         let digest = |point: PointOfYear| {
             let is_dimmed = self.is_dimmed(point.number);
-            let point = PointOfHours::new(point, &self.calendar, &thresholds, confidence);
+            let point = PointOfHours::new(point, &self.calendar, &thresholds);
             if is_dimmed { point } else { point.slimmed() }
         };
         let (scene, settings) = (&loaded.scene, &self.settings);
