@@ -258,10 +258,9 @@ pub(crate) fn look<S: Spectrum>(
     miss_probability: f64,
 ) -> Look {
     let mut estimates = sums.estimator.estimates();
-    for (sensor, before) in
-        estimates.sensors.iter_mut().zip(sums.before.map_or(&[][..], |it| &it.sensors))
-    {
-        sensor.keep_average(before);
+    if let Some(before) = sums.before {
+        let sensors = estimates.sensors.iter_mut().zip(&before.sensors);
+        sensors.for_each(|(sensor, before)| sensor.keep_average(before));
     }
     estimates.confidence = settings.confidence;
     estimates.miss_probability = miss_probability;

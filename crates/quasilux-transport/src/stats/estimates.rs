@@ -201,7 +201,7 @@ impl Estimates {
 
     /// The average of what was found, whatever is missing: what decides whether a run goes on.
     pub(crate) fn found_average(&self, sensor: usize) -> Interval {
-        self.interval_of_replicates(&self.sensors[sensor].even_average().replicate_lx)
+        self.interval_of_replicates(&self.sensors[sensor].average_lx())
     }
 
     /// The interval of the smallest value of one sensor, in lx: that of the point where it truly is
@@ -227,7 +227,7 @@ impl Estimates {
     #[must_use]
     pub fn uniformity(&self, sensor: usize) -> Interval {
         let own = &self.sensors[sensor];
-        let ratios = ratios(&own.replicate_lx, &own.even_average().replicate_lx);
+        let ratios = ratios(&own.replicate_lx, &own.average_lx());
         let interval_of_minimum = interval_of_minimum(&ratios, self.miss_probability);
         self.where_resolved(sensor, interval_of_minimum)
     }
@@ -251,7 +251,7 @@ impl Estimates {
     #[must_use]
     pub fn term_average(&self, sensor: usize, term: usize) -> Interval {
         let own = &self.sensors[sensor];
-        let interval = self.interval_of_replicates(&own.even_average().terms_lx[term]);
+        let interval = self.interval_of_replicates(&own.average_of_term_lx(term));
         let is_resolved = own.terms[term].resolved.iter().all(|resolved| *resolved);
         Interval { half_width: interval.half_width.filter(|_| is_resolved), ..interval }
     }
@@ -271,7 +271,7 @@ impl Estimates {
 
 /// The mean of each row.
 fn means(rows: &[Vec<f64>]) -> Vec<f64> {
-    rows.iter().map(|row| row.iter().sum::<f64>() / row.len() as f64).collect()
+    rows.iter().map(|row| mean(row)).collect()
 }
 
 impl SensorEstimates {
@@ -279,17 +279,36 @@ impl SensorEstimates {
     pub(crate) fn keep_average(&mut self, before: &Self) {
         let are_equal = self.samples.iter().all(|samples| *samples == self.samples[0]);
         if !are_equal {
-            self.average = Some(before.even_average());
+            self.average = Some(before.average.clone().unwrap_or_else(|| EvenAverage {
+                replicate_lx: before.average_lx(),
+                terms_lx: (0..before.terms.len()).map(|it| before.average_of_term_lx(it)).collect(),
+                unseen_lx: before.unseen_of_average_lx(),
+            }));
         }
     }
 
-    /// The average of equal numbers of samples.
-    fn even_average(&self) -> EvenAverage {
-        self.average.clone().unwrap_or_else(|| EvenAverage {
-            replicate_lx: means(&self.replicate_lx),
-            terms_lx: self.terms.iter().map(|term| means(&term.replicate_lx)).collect(),
-            unseen_lx: self.unseen.as_ref().map(|unseen| unseen.average_lx),
-        })
+    /// The average of equal numbers of samples in lx, by replicate.
+    fn average_lx(&self) -> Vec<f64> {
+        match &self.average {
+            Some(kept) => kept.replicate_lx.clone(),
+            None => means(&self.replicate_lx),
+        }
+    }
+
+    /// That of a term of the Neumann series.
+    fn average_of_term_lx(&self, term: usize) -> Vec<f64> {
+        match &self.average {
+            Some(kept) => kept.terms_lx[term].clone(),
+            None => means(&self.terms[term].replicate_lx),
+        }
+    }
+
+    /// The bound in lx on light that no sample met in that average.
+    fn unseen_of_average_lx(&self) -> Option<f64> {
+        match &self.average {
+            Some(kept) => kept.unseen_lx,
+            None => self.unseen.as_ref().map(|unseen| unseen.average_lx),
+        }
     }
 
     /// The figures of some of its points.
@@ -388,7 +407,7 @@ impl Estimates {
     /// bound.
     #[must_use]
     pub fn unseen_of_average(&self, sensor: usize) -> Option<f64> {
-        self.sensors[sensor].even_average().unseen_lx
+        self.sensors[sensor].unseen_of_average_lx()
     }
 
     /// How much larger in lx the smallest value of one sensor may be by light that no sample met:

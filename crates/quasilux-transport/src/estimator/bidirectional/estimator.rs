@@ -95,11 +95,14 @@ impl<'a, S: Spectrum> BidirectionalEstimator<'a, S> {
         {
             receiver.most_lx = most_lx;
         }
+        let is_certified = settings.interval == IntervalKind::Certified;
         let replicates = settings.effective_replicates();
         let empty = TargetSums::new(context.listed_terms);
         Some(Self {
-            is_certified: settings.interval == IntervalKind::Certified,
-            samples_of_index: SamplesOfIndex::new(&engine, settings.sequence),
+            is_certified,
+            samples_of_index: is_certified
+                .then(|| SamplesOfIndex::new(&engine, settings.sequence))
+                .flatten(),
             caps,
             engine,
             scene,

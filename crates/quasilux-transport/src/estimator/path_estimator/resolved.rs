@@ -16,10 +16,12 @@ impl<S: Spectrum> PathEstimator<'_, S> {
     pub(super) fn evidence(&self, replicate_lx: &[Vec<f64>]) -> Vec<Evidence> {
         let of_target = |target: usize| {
             let values = replicate_lx.iter().map(|row| row[target]);
-            match () {
-                () if self.hides_a_tail(target, values) => Evidence::RareLight,
-                () if self.found_light(target) => Evidence::Sound,
-                () => Evidence::Dark,
+            if self.hides_a_tail(target, values) {
+                Evidence::RareLight
+            } else if self.found_light(target) {
+                Evidence::Sound
+            } else {
+                Evidence::Dark
             }
         };
         (0..self.targets.len()).map(of_target).collect()
