@@ -1,7 +1,6 @@
 //! Certified intervals, where they were asked for.
 
 use crate::figure::finite;
-use quasilux_scene::Scene;
 use quasilux_transport::{CertifiedInterval, Estimates, IntervalKind, Settings};
 use serde::Serialize;
 
@@ -40,32 +39,26 @@ impl From<CertifiedInterval> for CertifiedFigure {
     }
 }
 
-/// What a reader must know of certified intervals that were asked for and are not there.
-pub(crate) fn warnings(scene: &Scene, estimates: &Estimates, settings: &Settings) -> Vec<String> {
-    let of_sensor = |number: usize| {
-        let CertifiedFigures { points, average } =
-            CertifiedFigures::new(estimates, number, settings);
-        let name = &scene.sensors[number].name;
-        let points = points?;
-        let open = points.iter().filter(|point| point.upper.is_none()).count();
-        let missing = average.is_none().then(|| {
-            format!(
-                "sensor \"{name}\": the average over points that ended with different numbers of \
-                 samples has no certified interval; a planned run has (`quasilux plan`)"
-            )
-        });
-        let open = (open > 0).then(|| {
-            format!(
-                "sensor \"{name}\": nothing certain is known of the most light at {open} of {} \
-                 points: a certified upper limit needs sequence = \"random\", and a scene whose \
-                 surfaces are neither mirrors nor glass nor measured and keep less than all light",
-                points.len()
-            )
-        });
-        Some([missing, open])
-    };
-    let sensors = (0..scene.sensors.len()).filter_map(of_sensor);
-    sensors.flatten().flatten().collect()
+/// What a reader must know of the certified intervals of a sensor: which were asked for and are not
+/// there.
+pub(crate) fn warnings(name: &str, figures: &CertifiedFigures) -> Vec<String> {
+    let CertifiedFigures { points: Some(points), average } = figures else { return Vec::new() };
+    let open = points.iter().filter(|point| point.upper.is_none()).count();
+    let missing = average.is_none().then(|| {
+        format!(
+            "sensor \"{name}\": the average over points that ended with different numbers of \
+             samples has no certified interval; a planned run has (`quasilux plan`)"
+        )
+    });
+    let open = (open > 0).then(|| {
+        format!(
+            "sensor \"{name}\": nothing certain is known of the most light at {open} of {} \
+             points: a certified upper limit needs sequence = \"random\", and a scene whose \
+             surfaces are neither mirrors nor glass nor measured and keep less than all light",
+            points.len()
+        )
+    });
+    missing.into_iter().chain(open).collect()
 }
 
 #[cfg(test)]
@@ -75,12 +68,12 @@ mod tests {
     use quasilux_transport::{IndexTotals, UnseenLight};
 
     /// With one look.
-    fn bounded() -> (Scene, Estimates) {
-        let (scene, mut estimates) = example::bounded();
+    fn bounded() -> Estimates {
+        let (_, mut estimates) = example::bounded();
         estimates.miss_probability = 1.0 - estimates.confidence;
         let unseen: &mut UnseenLight = estimates.sensors[0].unseen.as_mut().expect("bounds");
         unseen.totals = Some(IndexTotals::unknown(3));
-        (scene, estimates)
+        estimates
     }
 
     fn asked() -> Settings {
@@ -91,30 +84,30 @@ mod tests {
     /// much, `100 / 80^(1/4)` and `100 / 40^(1/4)`.
     #[test]
     fn limits_are_there_where_they_are_asked_for() {
-        let (scene, estimates) = bounded();
+        let estimates = bounded();
         let nothing = CertifiedFigures::new(&estimates, 0, &Settings::default());
         assert_eq!(nothing, CertifiedFigures::default());
-        assert!(warnings(&scene, &estimates, &Settings::default()).is_empty());
+        assert!(warnings("a", &nothing).is_empty());
         let all = CertifiedFigures::new(&estimates, 0, &asked());
-        let CertifiedFigure { lower, upper } = all.points.expect("points")[0];
+        let CertifiedFigure { lower, upper } = all.points.as_ref().expect("points")[0];
         assert!((33.4..39.8).contains(&lower) && upper.is_none(), "{lower}");
-        let told = warnings(&scene, &estimates, &asked());
+        let told = warnings("a", &all);
         assert!(told.len() == 1 && told[0].contains("at 3 of 3 points"), "{told:?}");
     }
 
     /// 10 lx may come from an index, and there were 4000 of them: `(10 + sqrt(10 ln 40 / 4000))^2`.
     #[test]
     fn upper_limits_are_there_where_indices_are_known() {
-        let (scene, mut estimates) = bounded();
+        let mut estimates = bounded();
         let sensor = &mut estimates.sensors[0];
         let unseen: &mut UnseenLight = sensor.unseen.as_mut().expect("bounds");
         unseen.totals.as_mut().expect("totals").most_lx = vec![10.0; 3];
         sensor.samples = vec![1000, 1000, 500];
         let all = CertifiedFigures::new(&estimates, 0, &asked());
-        let upper = all.points.expect("points")[0].upper.expect("a limit");
+        let upper = all.points.as_ref().expect("points")[0].upper.expect("a limit");
         assert!((upper - 101.9).abs() < 0.1, "{upper}");
         assert_eq!(all.average, None);
-        let told = warnings(&scene, &estimates, &asked());
+        let told = warnings("a", &all);
         assert!(told.len() == 1 && told[0].contains("different numbers"), "{told:?}");
     }
 }

@@ -212,7 +212,7 @@ impl Report {
         }
         warnings.extend(sensors.iter().filter_map(SensorReport::missing_figures));
         warnings.extend(unseen::warnings(scene, estimates, settings));
-        warnings.extend(certified::warnings(scene, estimates, settings));
+        warnings.extend(sensors.iter().flat_map(SensorReport::certified_warnings));
         Self {
             sensors,
             cameras,
@@ -324,6 +324,14 @@ impl SensorReport {
             },
             terms: TermReport::all(estimates, index),
         }
+    }
+
+    fn certified_warnings(&self) -> Vec<String> {
+        let points: Option<Vec<CertifiedFigure>> =
+            self.points.iter().map(|point| point.certified_lx).collect();
+        let average = self.summary.certified_average_lx;
+        let points = points.filter(|points| !points.is_empty());
+        certified::warnings(&self.name, &CertifiedFigures { points, average })
     }
 
     /// A warning that names the figures without a value, if there are any.

@@ -70,3 +70,15 @@ impl PointStatus {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::PointStatus;
+
+    #[test]
+    fn results_have_the_names() {
+        for status in PointStatus::ALL {
+            assert_eq!(serde_json::to_value(status).unwrap(), status.name());
+        }
+    }
+}

@@ -64,8 +64,7 @@ impl Values {
 impl Pool {
     /// Light that no sample of so many indices met, at most, over the truth.
     pub(super) fn unseen_share(&self, indices: usize) -> f64 {
-        let rule_of_three = -libm::log(1.0 - UNSEEN_CONFIDENCE);
-        rule_of_three * self.range_lx / (indices as f64 * self.trials.mean)
+        rule_of_three() * self.range_lx / (indices as f64 * self.trials.mean)
     }
 
     pub(super) fn new(room: &Room, seed: u64) -> Self {
@@ -97,7 +96,6 @@ impl Pool {
         let mut estimates = found(&single);
         let sensor = estimates.sensors.swap_remove(0);
         let unseen = sensor.unseen.expect("the default estimator has bounds");
-        let rule_of_three = -libm::log(1.0 - UNSEEN_CONFIDENCE);
         let trials = sensor.replicate_lx.len() as f64;
         Self {
             room: room.name,
@@ -105,8 +103,13 @@ impl Pool {
             trials: Values::new(sensor.replicate_lx.iter().map(|row| row[0]).collect()),
             nets: values(&settings(Sequence::Sobol, NETS, OF_A_NET)),
             large_nets: values(&settings(Sequence::Sobol, LARGE_NETS, OF_A_LARGE_NET)),
-            range_lx: unseen.point_lx[0] * trials / rule_of_three,
+            range_lx: unseen.point_lx[0] * trials / rule_of_three(),
             most_lx: unseen.totals.expect("they were asked for").most_lx[0],
         }
     }
+}
+
+/// Expected samples in a set of paths that is left without any with a probability of 5 %.
+fn rule_of_three() -> f64 {
+    -libm::log(1.0 - UNSEEN_CONFIDENCE)
 }
