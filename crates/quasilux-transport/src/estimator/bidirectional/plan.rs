@@ -36,7 +36,7 @@ const RADIUS_M: f64 = 0.1;
 const SHARE_OF_SIZE: f64 = 1.0 / 64.0;
 /// The radius of a disc for light straight from lights with an area, as a share of the distance of
 /// the nearest at most: over that distance their illuminance changes.
-const SHARE_OF_DISTANCE: f64 = 0.125;
+const SHARE_OF_DISTANCE: f64 = 0.0625;
 /// Directions in which walls are looked for in the plane of a disc.
 const LOOKS: u32 = 64;
 
