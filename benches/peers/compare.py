@@ -13,7 +13,7 @@ import tempfile
 from importlib import import_module
 from pathlib import Path
 
-from contest import page, references, results
+from contest import bound, page, references, results
 from contest.machine import processor
 from contest.programs.luxcore import LuxCore
 from contest.programs.mitsuba import Mitsuba
@@ -50,7 +50,8 @@ def main() -> int:
             reference = references.load(room)
             own = Effort(min(goals), effort.cap_seconds, effort.rounds)
             series = measure(room, reference, programs, own, Path(folder), _say)
-            found.append(results.room_result(room, goals, reference, series))
+            price = _price_of_bound(room, programs, Path(folder), options.rounds)
+            found.append(results.room_result(room, goals, reference, series, price))
     measured = Results(_machine(programs, effort, load_before), _with_others(found))
     MEASURED.parent.mkdir(exist_ok=True)
     results.save(measured, MEASURED)
@@ -122,6 +123,13 @@ def _room(name: str) -> Room:
     if name not in ROOMS:
         sys.exit(f"no room {name}; expected one of {', '.join(ROOMS)}")
     return import_module(f"contest.rooms.{name}").room()
+
+
+def _price_of_bound(
+    room: Room, programs: list[Program], folder: Path, rounds: int
+) -> bound.Bound | None:
+    own = next((program for program in programs if program.name == page.FIRST), None)
+    return bound.measure(room, own, folder / room.name / "bound", rounds) if own else None
 
 
 def _machine(programs: list[Program], effort: Effort, load_before: float) -> Machine:

@@ -5,6 +5,7 @@ import math
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
+from contest.bound import Bound
 from contest.curves import Found, Point, Reached, time_to
 from contest.errors import Deviation
 from contest.references import Reference
@@ -51,6 +52,7 @@ class RoomResult:
     reference_deviation: Deviation
     reference_rms_z: float
     lines: list[Line]
+    bound: Bound | None = None
 
 
 @dataclass(frozen=True)
@@ -75,7 +77,11 @@ class Results:
 
 
 def room_result(
-    room: Room, goals: list[float], reference: Reference, series: list[Series]
+    room: Room,
+    goals: list[float],
+    reference: Reference,
+    series: list[Series],
+    bound: Bound | None,
 ) -> RoomResult:
     """The numbers of one room."""
     sides = reference.agreement
@@ -90,6 +96,7 @@ def room_result(
         reference_deviation=Deviation(sides.deviation, sides.standard_error),
         reference_rms_z=sides.rms_z,
         lines=[_line(row, reference) for row in series],
+        bound=bound,
     )
 
 
@@ -126,7 +133,9 @@ def _read_room(document: dict) -> RoomResult:
         for line in document.pop("lines")
     ]
     sides = Deviation(**document.pop("reference_deviation"))
-    return RoomResult(**document, reference_deviation=sides, lines=lines)
+    own = document.pop("bound", None)
+    bound = Bound(**own) if own else None
+    return RoomResult(**document, reference_deviation=sides, lines=lines, bound=bound)
 
 
 def rounded(value: object) -> object:

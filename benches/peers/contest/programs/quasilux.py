@@ -77,6 +77,13 @@ class LoadedQuasilux:
         self._run([*options, "--samples", str(samples), "--seed", str(seed)])
         return Run(self._figures("illuminance_lx"), time.perf_counter() - begin)
 
+    def unseen(self, tolerance: str, unseen: str, limit_seconds: int, seed: int) -> np.ndarray:
+        """Runs until both are reached; what may be unseen over the value, at each point."""
+        options = ["--estimator", self.program.estimator, "--rel-tol", tolerance]
+        options += ["--unseen-tol", unseen, "--time", f"{limit_seconds}s", "--seed", str(seed)]
+        self._run(options)
+        return self._figures("unseen_lx") / self._figures("illuminance_lx")
+
     def close(self) -> None:
         """Files stay for who wants to look."""
 
