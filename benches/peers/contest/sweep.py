@@ -1,7 +1,7 @@
 """Who takes how long for which error: programs take turns, in rounds.
 
-In the first round each program climbs from its least effort until its error is well below the goal
-or the next run would take too long; later rounds repeat its last levels, one level of every program
+In the first round each program climbs from its least effort, two levels at least, until its error
+is well below the goal or the next run would take too long; later rounds repeat its last levels, one level of every program
 after the other, with other seeds.
 """
 
@@ -90,7 +90,9 @@ def _climb(row: Series, loaded: Loaded, reference: Reference, effort: Effort) ->
         run = loaded.run(level, seed=1)
         row.levels[level] = [run]
         well_below = _own_error([run], reference) <= 0.7 * effort.goal
-        if well_below or _next_seconds(run.seconds, before_seconds) > effort.cap_seconds:
+        too_long = _next_seconds(run.seconds, before_seconds) > effort.cap_seconds
+        # One level does not tell start-up from what grows.
+        if well_below or (too_long and level > 0) or run.seconds > effort.cap_seconds:
             return
         level, before_seconds = level + 1, run.seconds
 
