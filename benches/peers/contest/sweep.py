@@ -1,8 +1,8 @@
 """Who takes how long for which error: programs take turns, in rounds.
 
 In the first round each program climbs from its least effort, two levels at least, until its error
-is well below the goal or the next run would take too long; later rounds repeat its last levels, one level of every program
-after the other, with other seeds.
+is well below the goal or the next run would take too long; later rounds repeat its last levels, one
+level of every program after the other, with other seeds.
 """
 
 from collections.abc import Callable
