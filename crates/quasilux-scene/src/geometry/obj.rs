@@ -24,10 +24,18 @@ pub(super) fn read(
     let materials: Vec<u32> = lines.materials.iter().map(|name| builder.material(name)).collect();
     let mut libraries = Libraries { files, wanted: lines.materials.iter().collect(), bytes: 0 };
     let mut read = HashSet::new();
-    for (name, place) in &lines.libraries {
-        if read.insert(name) {
-            libraries.read(&beside(&file, name), *place, builder, warnings);
+    for (names, place) in &lines.libraries {
+        if read.insert(names) {
+            libraries.read_all(names, *place, builder, warnings);
         }
+    }
+    if lines.unnamed_materials > 0 {
+        let message = format!(
+            "{} usemtl statements name no material: their faces have the material \
+             \"{DEFAULT_MATERIAL}\"",
+            lines.unnamed_materials
+        );
+        warnings.push(Warning::new(&file, None, message));
     }
     if lines.thin_faces > 0 {
         let message = format!("{} faces have fewer than three corners: dropped", lines.thin_faces);
@@ -72,6 +80,30 @@ struct Libraries<'a> {
 }
 
 impl Libraries<'_> {
+    /// Reads what a statement names: one file, whose name may have blanks, or several.
+    fn read_all(
+        &mut self,
+        names: &str,
+        place: Position,
+        builder: &mut MeshBuilder,
+        warnings: &mut Vec<Warning>,
+    ) {
+        let whole = beside(builder.file(), names.trim_matches('"'));
+        let several = file_names(names);
+        if several.len() < 2 {
+            return self.read(&whole, place, builder, warnings);
+        }
+        if let Ok(bytes) = self.bytes_of(&whole) {
+            return self.add(&whole, &bytes, builder, warnings);
+        }
+        for name in several {
+            if self.bytes >= FileKind::MaterialLibrary.max_bytes() {
+                break;
+            }
+            self.read(&beside(builder.file(), &name), place, builder, warnings);
+        }
+    }
+
     /// Reads an MTL file; one that is missing or broken is a warning, for the project file may
     /// define the materials.
     fn read(
@@ -91,7 +123,17 @@ impl Libraries<'_> {
                 return;
             }
         };
-        for material in mtl::read(path, &bytes, warnings) {
+        self.add(path, &bytes, builder, warnings);
+    }
+
+    fn add(
+        &self,
+        path: &str,
+        bytes: &[u8],
+        builder: &mut MeshBuilder,
+        warnings: &mut Vec<Warning>,
+    ) {
+        for material in mtl::read(path, bytes, warnings) {
             let MtlMaterial { name, reflectance, emits } = material;
             if self.wanted.contains(&name) {
                 let index = builder.material(&name);
@@ -109,5 +151,37 @@ impl Libraries<'_> {
         let bytes = files::read(self.files, path, FileKind::MaterialLibrary)?;
         self.bytes += bytes.len() as u64;
         Ok(bytes)
+    }
+}
+
+/// The names of the files of a statement: each ends with the word that ends like a material file;
+/// words that none ends are names of their own.
+fn file_names(names: &str) -> Vec<String> {
+    let mut all = Vec::new();
+    let mut begun: Vec<&str> = Vec::new();
+    for word in names.split_whitespace() {
+        begun.push(word);
+        let word = word.trim_matches('"');
+        if word.len() > 4 && word.to_ascii_lowercase().ends_with(".mtl") {
+            all.push(begun.join(" ").trim_matches('"').to_owned());
+            begun.clear();
+        }
+    }
+    all.extend(begun.into_iter().map(str::to_owned));
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::file_names;
+
+    #[test]
+    fn names_end_like_material_files() {
+        let of = |names: &str| file_names(names).join("|");
+        assert_eq!(of("a.mtl b.mtl"), "a.mtl|b.mtl");
+        assert_eq!(of("my own.mtl B.MTL  c"), "my own.mtl|B.MTL|c");
+        assert_eq!(of("\"my own.mtl\" b.mtl"), "my own.mtl|b.mtl");
+        assert_eq!(of("room"), "room");
+        assert_eq!(of(""), "");
     }
 }

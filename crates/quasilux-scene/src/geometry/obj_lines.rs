@@ -29,6 +29,8 @@ pub(super) struct ObjLines {
     pub(super) libraries: Vec<(String, Position)>,
     /// Faces of fewer than three corners, left out.
     pub(super) thin_faces: u64,
+    /// How many `usemtl` statements have no name.
+    pub(super) unnamed_materials: u64,
 }
 
 /// A face.
@@ -93,7 +95,8 @@ impl Reader {
             "f" | "fo" => self.add_face(reader, words)?,
             "o" | "g" => self.object = Some(name.to_owned()).filter(|name| !name.is_empty()),
             "usemtl" if name.is_empty() => {
-                return Err(reader.error(0, "usemtl names no material; expected a name"));
+                self.material = None;
+                self.lines.unnamed_materials += 1;
             }
             "usemtl" => {
                 let materials = &mut self.lines.materials;
@@ -297,14 +300,15 @@ mod tests {
     #[test]
     fn objects_and_materials_last_until_others_come() {
         let text = "f 1 2 3\nusemtl a\nf 1 2 3\no first\no second\nf 1 2 3\nusemtl b\n\
-                    g second\nf 1 2 3\nusemtl a\ng\nf 3 2 1\nv 0 0 0\nv 1 0 0\nv 0 1 0\n";
+                    g second\nf 1 2 3\nusemtl a\ng\nf 3 2 1\nusemtl \nf 1 2 3\nv 0 0 0\nv 1 0 0\nv 0 1 0\n";
         let lines = read("a.obj", text.as_bytes()).unwrap();
         let objects: Vec<&str> =
             lines.faces.iter().map(|face| lines.objects[face.object].as_str()).collect();
-        assert_eq!(objects, [UNNAMED, UNNAMED, "second", "second", UNNAMED]);
+        assert_eq!(objects, [UNNAMED, UNNAMED, "second", "second", UNNAMED, UNNAMED]);
         assert_eq!(lines.objects.len(), 3, "{:?}", lines.objects);
         let materials: Vec<Option<usize>> = lines.faces.iter().map(|face| face.material).collect();
-        assert_eq!(materials, [None, Some(0), Some(0), Some(1), Some(0)]);
+        assert_eq!(materials, [None, Some(0), Some(0), Some(1), Some(0), None]);
+        assert_eq!(lines.unnamed_materials, 1);
     }
 
     /// In one pass: a million of them took longer than anyone waits.
@@ -324,7 +328,6 @@ mod tests {
             ("v 0 0 0\nf 1 1 -2\n", (2, 7), "\"-2\""),
             ("f 1 0 1\n", (1, 5), "\"0\""),
             ("f 1 2 99999999999\n", (1, 7), "\"99999999999\""),
-            ("usemtl\n", (1, 1), "names no material"),
             ("v 0 0 0\n\0\u{1}", (2, 1), "binary"),
         ] {
             let error = read("a.obj", text.as_bytes()).unwrap_err();

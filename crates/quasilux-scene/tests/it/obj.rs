@@ -82,3 +82,25 @@ fn positions_are_read_in_double_precision() {
     let scene = load_text(PROJECT, &files).unwrap().scene;
     assert_eq!(scene.mesh.positions[2].y, 1.0 + f64::EPSILON);
 }
+
+/// Several files in a statement, names with blanks, both, and names that only look like two.
+#[test]
+fn statements_name_one_or_several_material_files() {
+    let reflectances = |statement: &str, names: &[&str]| {
+        let obj = ROOM_OBJ.replace("room.mtl", statement) + "usemtl steel\nf 1 2 3\n";
+        let mut files = MapFiles::room().with("room.obj", obj);
+        for (name, material) in names.iter().zip(["wood\nKd 0.1 0.1 0.1", "steel\nKd 0.2 0.2 0.2"])
+        {
+            files = files.with(name, format!("newmtl {material}\n"));
+        }
+        let loaded = load_text(PROJECT, &files).unwrap();
+        let of = |index: usize| loaded.scene.materials[index].bsdf.reflectance().unwrap().0[0];
+        ([of(0), of(1)], warnings_of(&loaded).len())
+    };
+    assert_eq!(reflectances("a.mtl b.mtl", &["a.mtl", "b.mtl"]), ([0.1, 0.2], 0));
+    assert_eq!(reflectances("my a.mtl  b c.MTL", &["my a.mtl", "b c.MTL"]), ([0.1, 0.2], 0));
+    assert_eq!(reflectances("\"my a.mtl\" \"b.mtl\"", &["my a.mtl", "b.mtl"]), ([0.1, 0.2], 0));
+    // One file of that name comes first; the other material is unknown.
+    assert_eq!(reflectances("a.mtl b.mtl", &["a.mtl b.mtl"]), ([0.1, 0.5], 1));
+    assert_eq!(reflectances("a.mtl none.mtl", &["a.mtl"]), ([0.1, 0.5], 2));
+}
