@@ -14,6 +14,8 @@ pub struct Distribution {
     form: Form,
     /// Towards the sun, which may be below the horizon.
     sun: [f64; 3],
+    /// [`Perez::is_held`].
+    is_held: bool,
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -30,26 +32,28 @@ impl Distribution {
     /// The same in all directions.
     #[must_use]
     pub fn uniform() -> Self {
-        Self { form: Form::Uniform, sun: [0.0, 0.0, 1.0] }
+        Self { form: Form::Uniform, sun: [0.0, 0.0, 1.0], is_held: false }
     }
 
     /// A CIE sky with the sun at this point; on types 1, 3, 5 and 16 it has no influence.
     #[must_use]
     pub fn cie(cie: CieType, sun: SkyPoint) -> Self {
         let form = cie.gradation().map_or(Form::TraditionalOvercast, Form::Gradation);
-        Self { form, sun: sun.to_direction() }
+        Self { form, sun: sun.to_direction(), is_held: false }
     }
 
     /// The sky of a measured hour.
     #[must_use]
     pub fn perez(perez: &Perez) -> Self {
-        Self { form: Form::Gradation(perez.gradation()), sun: perez.sun().to_direction() }
+        let form = Form::Gradation(perez.gradation());
+        Self { form, sun: perez.sun().to_direction(), is_held: perez.is_held() }
     }
 
     /// The sky of a picture; its relative luminances are those of the picture in cd/m2.
     #[must_use]
     pub fn panorama(panorama: Panorama) -> Self {
-        Self { form: Form::Panorama(Arc::new(panorama)), sun: [0.0, 0.0, 1.0] }
+        let form = Form::Panorama(Arc::new(panorama));
+        Self { form, sun: [0.0, 0.0, 1.0], is_held: false }
     }
 
     /// The relative luminance in a direction, a unit vector; 0 below the horizon.
@@ -65,6 +69,10 @@ impl Distribution {
             Form::Gradation(gradation) => gradation.relative(cos_zenith, dot(direction, self.sun)),
             Form::Panorama(panorama) => panorama.luminance_cd_m2(direction),
         }
+    }
+
+    pub(crate) fn is_held(&self) -> bool {
+        self.is_held
     }
 
     /// The gradation that it is of.

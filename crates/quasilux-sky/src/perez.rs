@@ -11,8 +11,15 @@
 //!   patches;
 //! - the sun of the model is held above the horizon, so that the hours around sunrise have a sky;
 //! - where the formula has no positive luminance anywhere, the sky is uniform;
-//! - the hours that `gendaylit` draws as black skies, for which the gradation grows towards the
-//!   horizon, are computed like others.
+//! - skies whose b is positive, which `gendaylit` draws black, have the nearest brightness for
+//!   which it is not ([`Perez::is_held`]).
+//!
+//! With b above 0 the gradation `1 + a exp(b / cos Z)` grows without end towards the horizon: a sky
+//! with the sun at 3 degrees and 900 W/m2 of it would have a horizon of 10^8 cd/m2. None of the six
+//! gradations of the CIE (S 011) has such a b. Brightness far from that of the skies to which the
+//! coefficients were fitted is what makes it, and Perez et al. hold theirs to 0.2 at least between
+//! clearnesses of 1.065 and 2.8 for the same reason. The illuminance of the sky stays that of its
+//! irradiance.
 
 use crate::error::SkyError;
 use crate::gradation::Gradation;
@@ -36,6 +43,9 @@ pub struct Perez {
     sun: SkyPoint,
     clearness: f64,
     brightness: f64,
+    /// The brightness of the distribution, and whether it had to be held.
+    shape_brightness: f64,
+    is_held: bool,
     diffuse_illuminance_lx: f64,
     normal_illuminance_lx: f64,
 }
@@ -175,10 +185,15 @@ impl Perez {
         // Nothing over nothing is a night, of which no light is left to distribute.
         let clearness = if clearness.is_nan() { 1.0 } else { clearness.clamp(1.0, MAX_CLEARNESS) };
         let brightness = (diffuse * air_mass / outside_w_m2).clamp(MIN_BRIGHTNESS, MAX_BRIGHTNESS);
+        let is_between = clearness > 1.065 && clearness < 2.8;
+        let published = if is_between { brightness.max(0.2) } else { brightness };
+        let shape_brightness = held(published, category_of(clearness), zenith);
         let mut perez = Self {
             sun,
             clearness,
             brightness,
+            shape_brightness,
+            is_held: shape_brightness != published,
             diffuse_illuminance_lx: 0.0,
             normal_illuminance_lx: 0.0,
         };
@@ -206,6 +221,13 @@ impl Perez {
         self.brightness
     }
 
+    /// Whether the luminances are those of another brightness, because of its own the formula makes
+    /// a horizon that is brighter without bound.
+    #[must_use]
+    pub fn is_held(&self) -> bool {
+        self.is_held
+    }
+
     /// The horizontal illuminance of the sky alone, in lx.
     #[must_use]
     pub fn diffuse_illuminance_lx(&self) -> f64 {
@@ -219,7 +241,7 @@ impl Perez {
     }
 
     fn category(&self) -> usize {
-        CATEGORIES.iter().take_while(|lowest| self.clearness >= **lowest).count()
+        category_of(self.clearness)
     }
 
     /// Perez et al. 1990, equation 7.
@@ -236,12 +258,14 @@ impl Perez {
 
     /// Perez, Seals, Michalsky 1993, equations 6 to 8.
     pub(crate) fn gradation(&self) -> Gradation {
-        let category = self.category();
-        let is_between = self.clearness > 1.065 && self.clearness < 2.8;
-        let delta = if is_between { self.brightness.max(0.2) } else { self.brightness };
+        let (category, delta) = (self.category(), self.shape_brightness);
         let zenith = (90.0 - self.sun.altitude_deg).to_radians();
         let linear = |[x1, x2, x3, x4]: [f64; 4]| x1 + x2 * zenith + delta * (x3 + x4 * zenith);
-        let [a, b, mut c, mut d, e] = COEFFICIENTS[category].map(linear);
+        let [mut a, mut b, mut c, mut d, e] = COEFFICIENTS[category].map(linear);
+        if self.is_held {
+            // The gradation is the same everywhere, and counts no more.
+            (a, b) = (0.0, 0.0);
+        }
         if category == 0 {
             let [_, _, [c1, c2, c3, c4], [d1, d2, d3, d4], _] = COEFFICIENTS[0];
             c = exp(pow(delta * (c1 + c2 * zenith), c3)) - c4;
@@ -251,9 +275,21 @@ impl Perez {
     }
 }
 
+fn category_of(clearness: f64) -> usize {
+    CATEGORIES.iter().take_while(|lowest| clearness >= **lowest).count()
+}
+
+/// The brightness nearest to this one for which b is not positive, with the sun at this angle from
+/// the zenith.
+fn held(brightness: f64, category: usize, zenith: f64) -> f64 {
+    let [b1, b2, b3, b4] = COEFFICIENTS[category][1];
+    let (constant, slope) = (b1 + b2 * zenith, b3 + b4 * zenith);
+    if constant + slope * brightness <= 0.0 { brightness } else { (-constant / slope).max(0.0) }
+}
+
 /// The square of the mean distance of the sun over that of a day: J. W. Spencer, "Fourier series
 /// representation of the position of the sun" (Search 2, 1971).
-fn eccentricity(day_of_year: u32) -> f64 {
+pub(crate) fn eccentricity(day_of_year: u32) -> f64 {
     let day = TAU * (f64::from(day_of_year) - 1.0) / 365.0;
     let (sine, cosine) = (libm::sin(day), cos(day));
     let (sine_2, cosine_2) = (libm::sin(2.0 * day), cos(2.0 * day));

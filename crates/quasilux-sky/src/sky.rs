@@ -78,6 +78,13 @@ impl Sky {
         self.distribution.as_panorama()
     }
 
+    /// Whether it is by Perez, and of another brightness than its irradiances
+    /// ([`Perez::is_held`](crate::Perez::is_held)).
+    #[must_use]
+    pub fn is_held(&self) -> bool {
+        self.distribution.is_held()
+    }
+
     /// How its luminances are distributed.
     pub(crate) fn distribution(&self) -> &Distribution {
         &self.distribution

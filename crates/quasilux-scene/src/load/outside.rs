@@ -43,6 +43,12 @@ pub(super) fn resolve(
         }
         OutsideLight::Weather(entry) => of_weather(project, entry, files, warnings)?,
     };
+    if sky.is_held() {
+        let message = "the model of Perez has no sky for so bright a one with the sun so low (b > \
+             0); it has the nearest brightness that the model has one for, and the illuminance \
+             of its own";
+        warnings.push(Warning::new(&project.file, None, message.to_owned()));
+    }
     let OutsideEntry { ground_reflectance, north_deg, openings, .. } = entry;
     let (ground_reflectance, north_deg) = (*ground_reflectance, *north_deg);
     let openings = openings.clone();

@@ -61,6 +61,57 @@ fn skies_are_those_of_gendaylit() {
     assert_eq!(rows, 32);
 }
 
+/// What `gendaylit` refuses: b above 0. Of skies at random, vertical and horizontal illuminances by
+/// sums over the hemisphere. No vertical plane has more of the sky than the CIE's clearest sky
+/// gives one towards a low sun, about three times the horizontal; and turned by right angles from
+/// the sun less than what a horizon of the CIE gives.
+#[test]
+fn skies_that_gendaylit_refuses_have_no_blazing_horizon() {
+    let mut held = 0;
+    for (number, point) in (0_u32..).zip(suns(4000)) {
+        let random = |k: f64| (f64::from(number) * k).fract();
+        let sun =
+            SkyPoint { altitude_deg: 30.0 * libm::pow(random(0.618_033_988_75), 2.0), ..point };
+        let irradiance = Irradiance {
+            direct_normal_w_m2: 1200.0 * random(0.754_877_666_2),
+            diffuse_horizontal_w_m2: 1.0 + 400.0 * libm::pow(random(0.569_840_291), 2.0),
+        };
+        let perez = Perez::new(irradiance, sun, 1 + number % 365, Perez::DEW_POINT_C).unwrap();
+        if !perez.is_held() {
+            continue;
+        }
+        held += 1;
+        let lx = perez.diffuse_illuminance_lx();
+        let sky =
+            Sky::new(Distribution::perez(&perez), SkyLevel::HorizontalIlluminance { lx }).unwrap();
+        let (mut horizontal, mut towards, mut aside) = (0.0, 0.0, 0.0);
+        const RINGS: u32 = 120;
+        for i in 0..RINGS {
+            for j in 0..4 * RINGS {
+                let altitude = (f64::from(i) + 0.5) / f64::from(RINGS) * 90.0;
+                let azimuth = (f64::from(j) + 0.5) / f64::from(RINGS) * 90.0;
+                let towards_deg = azimuth - sun.azimuth_deg;
+                let part = SkyPoint { altitude_deg: altitude, azimuth_deg: azimuth };
+                let (sine, cosine) = libm::sincos(altitude.to_radians());
+                let step = 90.0_f64.to_radians() / f64::from(RINGS);
+                let light = sky.luminance_cd_m2(part.to_direction()) * cosine * step * step;
+                horizontal += light * sine;
+                let (across, along) = libm::sincos(towards_deg.to_radians());
+                towards += light * cosine * along.max(0.0);
+                aside += light * cosine * across.max(0.0);
+            }
+        }
+        assert!((horizontal / lx - 1.0).abs() < 0.02, "{perez:?}: {horizontal} for {lx}");
+        assert!(
+            towards < 4.0 * lx && aside < 1.5 * lx,
+            "{perez:?}: {} {}",
+            towards / lx,
+            aside / lx
+        );
+    }
+    assert!(held > 300, "{held}");
+}
+
 /// Any hour has a sky, also those that the formula makes nothing of.
 #[test]
 fn every_hour_has_a_sky() {
