@@ -1,7 +1,10 @@
 //! Which hours of a weather file count for what.
 
-use quasilux_sky::{SkyError, Weather, WeatherSky};
+use quasilux_sky::{SkyError, Weather, WeatherHour, WeatherSky};
 use std::ops::Range;
+
+/// The end of civil twilight: by then the sky has less than a ten-thousandth of a day's light.
+const NIGHT_DEG: f64 = -6.0;
 
 /// The intervals of a weather file.
 #[derive(Clone, Debug)]
@@ -12,6 +15,10 @@ pub struct Calendar {
     pub skies: Vec<WeatherSky>,
     /// How long an interval lasts, in h.
     pub interval_h: f64,
+    /// Whether there is an interval for all hours of a year.
+    pub is_of_a_year: bool,
+    /// The intervals of which nothing is known while people are there.
+    pub unknown_occupied: usize,
 }
 
 /// An interval of a weather file, most often an hour.
@@ -25,7 +32,7 @@ pub struct Interval {
     pub middle_h: f64,
     /// The number of its sky among those with light; `None` at night, and where it is unknown.
     pub sky: Option<usize>,
-    /// Whether the file says what shines.
+    /// Whether the file says what shines, or the sun is far below the horizon.
     pub is_known: bool,
     /// Whether people are there.
     pub is_occupied: bool,
@@ -40,32 +47,29 @@ impl Calendar {
     /// # Errors
     /// For dates that no year has, which no file that could be read has.
     pub fn new(weather: &Weather, occupied_h: &Range<f64>) -> Result<Self, SkyError> {
-        let mut skies = Vec::new();
+        let (mut skies, mut unknown_occupied) = (Vec::new(), 0);
         let mut intervals = Vec::with_capacity(weather.hours.len());
         for hour in &weather.hours {
             let sky = weather.sky_of(hour)?;
             let middle_h = hour.seconds / 3600.0;
+            let is_known = hour.light.is_some() || is_night(weather, hour)?;
+            let has_people = occupied_h.contains(&middle_h);
+            unknown_occupied += usize::from(has_people && !is_known);
             intervals.push(Interval {
                 month: hour.month,
                 day: hour.day,
                 middle_h,
                 sky: sky.as_ref().map(|_| skies.len()),
-                is_known: hour.light.is_some(),
-                is_occupied: hour.light.is_some() && occupied_h.contains(&middle_h),
+                is_known,
+                is_occupied: is_known && has_people,
                 is_daylit: false,
             });
             skies.extend(sky);
         }
-        let mut calendar = Self { intervals, skies, interval_h: 1.0 };
-        calendar.interval_h = 24.0 / calendar.intervals_of_first_day().max(1) as f64;
+        let (interval_h, is_of_a_year) = (weather.interval_s / 3600.0, weather.is_of_a_year());
+        let mut calendar = Self { intervals, skies, interval_h, is_of_a_year, unknown_occupied };
         calendar.mark_daylit();
         Ok(calendar)
-    }
-
-    fn intervals_of_first_day(&self) -> usize {
-        let date = |interval: &Interval| (interval.month, interval.day);
-        let first = self.intervals.first().map(date);
-        self.intervals.iter().take_while(|interval| Some(date(interval)) == first).count()
     }
 
     /// Marks the brighter half; of equally bright hours the earlier ones.
@@ -86,4 +90,10 @@ impl Calendar {
     pub fn count(&self, is_of_kind: impl Fn(&Interval) -> bool) -> usize {
         self.intervals.iter().filter(|interval| is_of_kind(interval)).count()
     }
+}
+
+/// Whether the sky is dark whatever the weather.
+fn is_night(weather: &Weather, hour: &WeatherHour) -> Result<bool, SkyError> {
+    let sun = weather.site.sun_at(&weather.time_of(hour)?)?;
+    Ok(sun.altitude_deg < NIGHT_DEG)
 }

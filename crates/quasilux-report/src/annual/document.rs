@@ -155,7 +155,7 @@ fn summary_of(summary: &SensorOfYear) -> Value {
     json!({
         "sda": share(summary.autonomy),
         "ase": share(summary.sunlight),
-        "en17037_level": summary.en17037_level,
-        "en17037_level_bounds": summary.en17037_bounds,
+        "en17037_level": summary.en17037.map(|it| it.level),
+        "en17037_level_bounds": summary.en17037.map(|it| it.bounds),
     })
 }

@@ -124,36 +124,70 @@ pub(super) fn measures(
     illuminance_lx: &[f64],
     sun_lx: &[f64],
 ) -> [f64; Measure::ALL.len()] {
-    let &Thresholds { enough_lx, useful_lx: [least_lx, most_lx], sunlight_lx } = thresholds;
-    let (mut occupied, mut sums) = (0.0, [0.0; 6]);
-    let (mut sunlit, mut exposure) = (0.0, 0.0);
-    let mut daylit = Vec::with_capacity(calendar.intervals.len() / 2 + 1);
+    let counted = Measure::ALL.map(|measure| measure.counted_lx(thresholds));
+    let (mut occupied, mut exposure, mut sums) = (0.0, 0.0, [0.0; Measure::ALL.len()]);
     for interval in &calendar.intervals {
-        let lx = interval.sky.map_or(0.0, |sky| illuminance_lx[sky]);
+        let of = |lx: &[f64]| interval.sky.map_or(0.0, |sky| lx[sky]);
+        let (lx, straight_lx) = (of(illuminance_lx), of(sun_lx));
         exposure += lx;
-        if interval.is_daylit {
-            daylit.push(lx);
-        }
         if !interval.is_occupied {
             continue;
         }
         occupied += 1.0;
-        let is_enough = lx >= enough_lx;
-        sums[0] += f64::from(u8::from(is_enough));
-        sums[1] += (lx / enough_lx).min(1.0);
-        let kind = match lx {
-            lx if lx < least_lx => 2,
-            lx if lx > most_lx => 5,
-            _ if is_enough => 4,
-            _ => 3,
-        };
-        sums[kind] += 1.0;
-        let is_sunlit = interval.sky.is_some_and(|sky| sun_lx[sky] > sunlight_lx);
-        sunlit += f64::from(u8::from(is_sunlit));
+        for ((sum, measure), counted) in sums.iter_mut().zip(Measure::ALL).zip(&counted) {
+            let lx = if measure == Measure::SunlitHours { straight_lx } else { lx };
+            *sum += match counted {
+                Some([from_lx, to_lx]) => f64::from(u8::from((*from_lx..*to_lx).contains(&lx))),
+                None => (lx / thresholds.enough_lx).min(1.0),
+            };
+        }
     }
-    let [a, b, c, d, e, f] = sums.map(|sum| if occupied > 0.0 { sum / occupied } else { 0.0 });
-    let h = calendar.interval_h;
-    [a, b, c, d, e, f, sunlit * h, exposure * h, median(&mut daylit)]
+    Measure::ALL.map(|measure| match measure {
+        Measure::SunlitHours => sums[measure.place()] * calendar.interval_h,
+        Measure::Exposure => exposure * calendar.interval_h,
+        Measure::MedianDaylight => median(&mut daylit_lx(calendar, illuminance_lx)),
+        _ if occupied > 0.0 => sums[measure.place()] / occupied,
+        _ => 0.0,
+    })
+}
+
+/// How far a measure with this value may be off because nothing is known of some intervals, of a
+/// point with these illuminances; `None` where it may be anything.
+pub(super) fn off_by_missing(
+    measure: Measure,
+    value: f64,
+    calendar: &Calendar,
+    illuminance_lx: &[f64],
+) -> Option<f64> {
+    let unknown = calendar.count(|interval| !interval.is_known);
+    let unknown_occupied = calendar.unknown_occupied as f64;
+    match measure {
+        _ if unknown == 0 => Some(0.0),
+        Measure::SunlitHours => Some(unknown_occupied * calendar.interval_h),
+        // None of them is taken to be brighter than the brightest known one.
+        Measure::Exposure => {
+            let brightest_lx = illuminance_lx.iter().copied().reduce(f64::max)?;
+            Some(unknown as f64 * brightest_lx * calendar.interval_h)
+        }
+        Measure::MedianDaylight => {
+            let mut daylit = daylit_lx(calendar, illuminance_lx);
+            daylit.sort_by(f64::total_cmp);
+            let half = daylit.len() / 2;
+            let low_lx = daylit.get(half.checked_sub(unknown)?)?;
+            let high_lx = daylit.get(half + unknown)?;
+            Some((value - low_lx).max(high_lx - value))
+        }
+        _ => {
+            let known = calendar.count(|interval| interval.is_occupied) as f64;
+            let share = unknown_occupied / (known + unknown_occupied).max(1.0);
+            Some(share * value.max(1.0 - value))
+        }
+    }
+}
+
+fn daylit_lx(calendar: &Calendar, illuminance_lx: &[f64]) -> Vec<f64> {
+    let daylit = calendar.intervals.iter().filter(|interval| interval.is_daylit);
+    daylit.map(|interval| interval.sky.map_or(0.0, |sky| illuminance_lx[sky])).collect()
 }
 
 /// The largest value that half of them reach; 0 of none.

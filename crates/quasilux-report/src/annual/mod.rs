@@ -31,6 +31,6 @@ pub use measures::{Measure, Thresholds};
 pub use picture::{AnnualMap, annual_maps, hours_png};
 pub use point::{HourCounts, PointOfHours, PointSummary};
 pub use report::{AnnualReport, AnnualRun, SensorPoints};
-pub use sensor::{SensorOfYear, ShareOfPoints};
+pub use sensor::{DaylightLevel, SensorOfYear, ShareOfPoints};
 pub use sun_hours::{SunHours, sun_hours};
 pub use table::annual_table;

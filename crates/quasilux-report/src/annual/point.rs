@@ -8,9 +8,11 @@
 //! the other, replicates change them a little; that makes their intervals (B. Efron and C. Stein,
 //! "The jackknife estimate of variance", Annals of Statistics 9, 1981), which count that all hours
 //! share their paths.
+//!
+//! Both are wider by what intervals of which nothing is known may change.
 
 use super::calendar::Calendar;
-use super::measures::{Measure, Thresholds, measures};
+use super::measures::{Measure, Thresholds, measures, off_by_missing};
 use crate::Figure;
 use quasilux_transport::{Interval, PointOfYear};
 use serde::{Deserialize, Serialize};
@@ -105,7 +107,11 @@ impl PointOfHours {
         };
         let figure = |measure: Measure| Figure {
             value: Some(values[measure.place()]),
-            half_width: t.map(|t| half_width(measure, t)),
+            half_width: t.and_then(|t| {
+                let value = values[measure.place()];
+                let missing = off_by_missing(measure, value, calendar, &of_year.means)?;
+                Some(half_width(measure, t) + missing)
+            }),
         };
         let by_interval = |values: &[f64]| -> Vec<f32> {
             let value = |it: &super::Interval| match it.sky {

@@ -90,7 +90,7 @@ impl<'a> AnnualReport<'a> {
 
     /// What each sensor has of the year.
     pub fn summaries(&self) -> impl Iterator<Item = SensorOfYear> {
-        self.sensors().map(|of| SensorOfYear::new(of.points))
+        self.sensors().map(|of| SensorOfYear::new(of.points, self.calendar.is_of_a_year))
     }
 
     /// Whether all points reached the tolerance.

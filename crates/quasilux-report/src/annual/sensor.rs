@@ -24,11 +24,18 @@ pub struct SensorOfYear {
     /// Points with more than 250 occupied hours of direct sunlight (annual sunlight exposure, ASE
     /// 1000/250 of LM-83).
     pub sunlight: ShareOfPoints,
-    /// The level of EN 17037 that half and 95 % of the points reach together: 0 for none, 1 minimum
-    /// (300 and 100 lx), 2 medium (500 and 300 lx), 3 high (750 and 500 lx).
-    pub en17037_level: u8,
-    /// The lowest and the highest level that it may be.
-    pub en17037_bounds: [u8; 2],
+    /// The level of EN 17037; `None` where hours are not those of a year.
+    pub en17037: Option<DaylightLevel>,
+}
+
+/// The level of EN 17037 that half and 95 % of the points reach together: 0 for none, 1 minimum
+/// (300 and 100 lx), 2 medium (500 and 300 lx), 3 high (750 and 500 lx).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct DaylightLevel {
+    /// By the estimates.
+    pub level: u8,
+    /// The lowest and the highest that it may be.
+    pub bounds: [u8; 2],
 }
 
 /// Hours of direct sunlight that are not too many (LM-83).
@@ -40,9 +47,9 @@ const LEVELS_LX: [[f64; 2]; 3] = [[300.0, 100.0], [500.0, 300.0], [750.0, 500.0]
 const SHARES: [f64; 2] = [0.5, 0.95];
 
 impl SensorOfYear {
-    /// Of the points of a sensor.
+    /// Of the points of a sensor, and whether their hours are those of a year.
     #[must_use]
-    pub fn new(points: &[PointSummary]) -> Self {
+    pub fn new(points: &[PointSummary], is_of_a_year: bool) -> Self {
         let autonomy = |side: Side| {
             share(points, |point| side.take(point.measure(Measure::Autonomy)) >= AUTONOMY)
         };
@@ -61,8 +68,10 @@ impl SensorOfYear {
         Self {
             autonomy: ShareOfPoints::new(autonomy),
             sunlight: ShareOfPoints::new(sunlight),
-            en17037_level: level(Side::Value),
-            en17037_bounds: [level(Side::Low), level(Side::High)],
+            en17037: is_of_a_year.then(|| DaylightLevel {
+                level: level(Side::Value),
+                bounds: [level(Side::Low), level(Side::High)],
+            }),
         }
     }
 }
@@ -83,7 +92,8 @@ enum Side {
 
 impl Side {
     fn take(self, figure: Figure) -> f64 {
-        let (value, half_width) = (figure.value.unwrap_or(0.0), figure.half_width.unwrap_or(0.0));
+        let value = figure.value.unwrap_or(0.0);
+        let half_width = figure.half_width.unwrap_or(f64::INFINITY);
         match self {
             Self::Low => value - half_width,
             Self::Value => value,

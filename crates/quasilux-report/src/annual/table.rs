@@ -4,7 +4,7 @@ use super::dimming::Dimming;
 use super::measures::Measure;
 use super::point::PointSummary;
 use super::report::{AnnualReport, SensorPoints};
-use super::sensor::{SensorOfYear, ShareOfPoints};
+use super::sensor::{DaylightLevel, SensorOfYear, ShareOfPoints};
 use crate::number::{count, figure_text};
 use std::fmt::Write;
 
@@ -111,8 +111,10 @@ fn share_text(share: ShareOfPoints) -> String {
 
 fn level_text(summary: &SensorOfYear) -> String {
     let name = |level: u8| LEVELS[usize::from(level).min(LEVELS.len() - 1)];
-    let [low, high] = summary.en17037_bounds;
+    let Some(DaylightLevel { level, bounds: [low, high] }) = summary.en17037 else {
+        return "no level: the weather file is not of a year".to_owned();
+    };
     let bounds =
         if low == high { "surely".to_owned() } else { format!("{} to {}", name(low), name(high)) };
-    format!("level {} ({bounds})", name(summary.en17037_level))
+    format!("level {} ({bounds})", name(level))
 }

@@ -109,7 +109,10 @@ fn intervals_come_from_replicates() {
     assert!((f64::from(hours.half_width_lx[at]) - half_width).abs() < 1e-4);
     let exposure = hours.summary.measure(Measure::Exposure);
     assert!((value(exposure) - (100.0 + 1.5 * mean)).abs() < 1e-9);
-    assert!((exposure.half_width.unwrap() - 1.5 * half_width).abs() < 1e-6);
+    // The hour that is not known may be as bright as the brightest.
+    assert!((exposure.half_width.unwrap() - 1.5 * half_width - mean).abs() < 1e-6);
+    let too_much = hours.summary.measure(Measure::TooMuch);
+    assert_eq!((too_much.value, too_much.half_width), (Some(0.0), Some(1.0 / 20.0)));
     assert_eq!(hours.summary.hours, HourCounts { above: 0, below: 18, undecided: 1 });
     let alone = point(vec![vec![100.0, 400.0, 50.0]], [0.0; 3]);
     let alone = PointOfHours::new(alone.clone(), &calendar, &Thresholds::default());
@@ -207,11 +210,12 @@ fn shares_of_points_have_bounds() {
         of([0.49, 0.02], [249.0, 5.0], [310.0, 5.0]),
         of([0.3, 0.01], [0.0, 0.0], [310.0, 5.0]),
     ];
-    let sensor = SensorOfYear::new(&points);
+    let sensor = SensorOfYear::new(&points, true);
     assert_eq!(sensor.autonomy, ShareOfPoints { value: 0.5, low: 0.25, high: 0.75 });
     assert_eq!(sensor.sunlight, ShareOfPoints { value: 0.5, low: 0.25, high: 0.75 });
     // Half of the points have 500 lx, one of them not surely; all have 300 lx.
-    assert_eq!((sensor.en17037_level, sensor.en17037_bounds), (2, [1, 2]));
+    assert_eq!(sensor.en17037, Some(DaylightLevel { level: 2, bounds: [1, 2] }));
+    assert_eq!(SensorOfYear::new(&points, false).en17037, None);
 }
 
 /// Occupied hours without daylight take all power, those with a part of the target a part of it,
@@ -278,6 +282,30 @@ fn open_points_are_in_the_sun_all_day() {
 }
 
 /// The sheets are of the clear day within a fortnight of the equinox, not of a brighter one later.
+#[test]
+fn a_year_without_radiation_has_no_level() {
+    let mut text = HEAD.to_owned();
+    let days = [31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31];
+    for (month, days) in (1..).zip(days) {
+        for (day, hour) in (1..=days).flat_map(|day| (1..=24).map(move |hour| (day, hour))) {
+            let before = "?9?9,9.0,7.0,87,102000,0,0,305,0";
+            text += &format!("2026,{month},{day},{hour},0,{before},9999,9999,0,0\n");
+        }
+    }
+    let weather = Weather::parse(text.as_bytes()).unwrap().weather;
+    let calendar = Calendar::new(&weather, &(8.0..18.0)).unwrap();
+    assert!(calendar.is_of_a_year);
+    // Night is night: half of the year but for twilight.
+    let dark = calendar.count(|interval| interval.is_known);
+    assert!((3200..4000).contains(&dark), "{dark}");
+    let nothing = point(vec![Vec::new(); 4], [0.0; 3]);
+    let nothing = PointOfYear { sun_lx: vec![Vec::new(); 4], ..nothing };
+    let hours = PointOfHours::new(nothing, &calendar, &Thresholds::default());
+    let sensor = SensorOfYear::new(&[hours.summary], calendar.is_of_a_year);
+    assert_eq!(sensor.en17037, Some(DaylightLevel { level: 0, bounds: [0, 3] }));
+    assert_eq!((sensor.autonomy.low, sensor.autonomy.high), (0.0, 1.0));
+}
+
 #[test]
 fn sheets_of_the_equinox_are_of_the_clearest_day() {
     let mut text = HEAD.to_owned();

@@ -1,9 +1,11 @@
 //! EnergyPlus weather: "Auxiliary programs" (EnergyPlus documentation), EPW data dictionary.
 
+use super::interval::usual_interval_s;
+use super::possible::Possible;
 use super::row::{Row, date, number};
-use super::{Weather, WeatherHour, WeatherLight, WeatherUnits, WeatherWarning, expect_a_year};
+use super::{HOUR_S, Weather, WeatherHour, WeatherLight, WeatherUnits, WeatherWarning, year_of};
 use crate::sun::Site;
-use quasilux_text::{ParseError, Token, Warnings, quoted};
+use quasilux_text::{ParseError, Position, Token, Warnings, quoted};
 
 /// Lines before the data.
 const HEADER: usize = 8;
@@ -19,10 +21,17 @@ const DIFFUSE_HORIZONTAL: usize = 15;
 const MISSING_RADIATION: f64 = 9999.0;
 const MISSING_TEMPERATURE: f64 = 99.9;
 
+/// In so many days some are clear.
+const DAYS_THAT_TELL: usize = 28;
+/// Clear hours have more than this part of what the sun gives above the air, with the sun this
+/// high.
+const CLEARNESS: f64 = 0.5;
+const CLEAR_ABOVE_DEG: f64 = 15.0;
+
 pub(super) fn read(
     rows: &[Row<'_>],
     warnings: &mut Warnings<WeatherWarning>,
-) -> Result<Weather, ParseError> {
+) -> Result<(Weather, Vec<Position>), ParseError> {
     let location = rows[0];
     let fields = location.by_commas();
     let at = |n, what: &str| location.field(&fields, n, what);
@@ -33,16 +42,88 @@ pub(super) fn read(
     let time_zone_h = degrees(8, 15.0, "hours ahead of Greenwich, -15 to 15")?;
     let site = Site::new(latitude_deg, longitude_deg, time_zone_h)
         .map_err(|error| ParseError::new(location.start(), error, "a site"))?;
-    let per_hour = intervals_per_hour(rows)?;
+    let (declared_at, declared) = intervals_per_hour(rows)?;
     let data = rows.iter().skip(HEADER).filter(|row| !row.text().trim().is_empty());
-    let hours = data.map(|row| hour(row, per_hour, warnings));
-    let hours = hours.collect::<Result<Vec<WeatherHour>, ParseError>>()?;
-    expect_a_year(hours.len(), per_hour as usize, warnings);
-    Ok(Weather { place, site, units: WeatherUnits::Irradiance, hours })
+    let data: Vec<&Row<'_>> = data.collect();
+    let lines = data.iter().map(|row| Line::new(row, warnings));
+    let mut lines = lines.collect::<Result<Vec<Line>, ParseError>>()?;
+    let minutes_tell = minutes_tell(&lines, declared);
+    for Line { hour_of_day, minute, hour } in &mut lines {
+        let end_h = if minutes_tell { *hour_of_day - 1.0 + *minute / 60.0 } else { *hour_of_day };
+        hour.seconds = HOUR_S * end_h;
+    }
+    let mut hours: Vec<WeatherHour> = lines.into_iter().map(|line| line.hour).collect();
+    let declared_s = HOUR_S / declared;
+    let interval_s = usual_interval_s(hours.iter().map(WeatherHour::time)).unwrap_or(declared_s);
+    if (interval_s - declared_s).abs() > 1.0 {
+        let found = format!("{declared} intervals an hour");
+        let expected = format!("{:.0} as the lines have them (read so)", HOUR_S / interval_s);
+        warnings.push(WeatherWarning::OtherThanDeclared, declared_at, found, expected);
+    }
+    for hour in &mut hours {
+        let half_s = 0.5 * interval_s;
+        hour.seconds = (hour.seconds - half_s).clamp(0.0, 24.0 * HOUR_S - half_s);
+    }
+    let places = data.iter().map(|row| row.start()).collect();
+    let (units, year) = (WeatherUnits::Irradiance, year_of(&hours));
+    let mut weather = Weather { place, site, units, interval_s, hours, year };
+    if interval_s < HOUR_S {
+        tell_powers_from_energies(&mut weather, declared_at, warnings);
+    }
+    Ok((weather, places))
 }
 
-/// From the last line of the header.
-fn intervals_per_hour(rows: &[Row<'_>]) -> Result<f64, ParseError> {
+/// Whether the minute of a line says when its interval ends. Of whole hours it is always 0 or
+/// always 60, and means nothing.
+fn minutes_tell(lines: &[Line], declared: f64) -> bool {
+    match lines {
+        [] => false,
+        [_] => declared > 1.0,
+        [first, others @ ..] => others.iter().any(|line| line.minute % 60.0 != first.minute % 60.0),
+    }
+}
+
+/// The format says energies in Wh/m2, and EnergyPlus takes powers in W/m2; of hours both are the
+/// same. Values are powers, but where they show that they are not: over a month or longer no
+/// interval has half of what the sun gives above the air, as the clearest have more; and as energies
+/// all are possible.
+fn tell_powers_from_energies(
+    weather: &mut Weather,
+    at: Position,
+    warnings: &mut Warnings<WeatherWarning>,
+) {
+    let per_hour = HOUR_S / weather.interval_s;
+    let times = |light: WeatherLight| WeatherLight {
+        direct: light.direct * per_hour,
+        diffuse: light.diffuse * per_hour,
+    };
+    let (mut clearest, mut all_possible) = (0.0_f64, true);
+    for hour in &weather.hours {
+        let Some(light) = hour.light.filter(|light| light.direct + light.diffuse > 0.0) else {
+            continue;
+        };
+        let Ok(possible) = Possible::of_all(weather, hour) else { continue };
+        all_possible &= possible.holds(times(light), weather.units);
+        if possible.altitude_deg > CLEAR_ABOVE_DEG {
+            let above = possible.above_the_air_w_m2 * possible.sine();
+            clearest = clearest.max(possible.global(light, weather.units) / above);
+        }
+    }
+    let days = weather.hours.chunk_by(|a, b| (a.month, a.day) == (b.month, b.day)).count();
+    let are_energies = days >= DAYS_THAT_TELL && clearest < CLEARNESS && all_possible;
+    if are_energies {
+        weather.hours.iter_mut().for_each(|hour| hour.light = hour.light.map(times));
+    }
+    let found = format!("radiation in Wh/m2, {per_hour:.0} intervals an hour");
+    let expected = match are_energies {
+        true => "W/m2 (read as Wh/m2: as W/m2 no interval is clear)",
+        false => "W/m2 (read so, as EnergyPlus does)",
+    };
+    warnings.push(WeatherWarning::PowerOrEnergy, at, found, expected);
+}
+
+/// From the last line of the header, with its place.
+fn intervals_per_hour(rows: &[Row<'_>]) -> Result<(Position, f64), ParseError> {
     let what = "DATA PERIODS in line 8";
     let Some(row) = rows.get(HEADER - 1) else {
         let last = rows[rows.len() - 1];
@@ -57,44 +138,45 @@ fn intervals_per_hour(rows: &[Row<'_>]) -> Result<f64, ParseError> {
     let per_hour = row.field(&fields, 2, what)?;
     let count = number(&per_hour, 1.0..=60.0, what)?;
     if 60.0 % count == 0.0 {
-        Ok(count)
+        Ok((per_hour.at, count))
     } else {
         Err(ParseError::new(per_hour.at, quoted(per_hour.text), what))
     }
 }
 
-fn hour(
-    row: &Row<'_>,
-    per_hour: f64,
-    warnings: &mut Warnings<WeatherWarning>,
-) -> Result<WeatherHour, ParseError> {
-    let fields = row.by_commas();
-    let field = |n, what: &str| row.field(&fields, n, what);
-    let [month, day] = date(&field(MONTH, "a month")?, &field(DAY, "a day")?)?;
-    let what = "the hour, 1 to 24";
-    let hour = number(&field(HOUR, what)?, 1.0..=24.0, what)?;
-    let what = "the minute that an interval ends with, 0 to 60";
-    let minute = number(&field(MINUTE, what)?, 0.0..=60.0, what)?;
-    // Of whole hours the minute is 0 or 60, and means nothing.
-    let end_h = if per_hour == 1.0 { hour } else { hour - 1.0 + minute / 60.0 };
-    let seconds = 3600.0 * (end_h - 0.5 / per_hour).clamp(0.0, 24.0 - 0.5 / per_hour);
-    let direct = radiation(&field(DIRECT_NORMAL, "the direct normal radiation in Wh/m2")?)?;
-    let diffuse = field(DIFFUSE_HORIZONTAL, "the diffuse horizontal radiation in Wh/m2")?;
-    let light = direct
-        .zip(radiation(&diffuse)?)
-        // A mean power in W/m2 is the energy of the interval over its hours.
-        .map(|(direct, diffuse)| WeatherLight {
-            direct: direct * per_hour,
-            diffuse: diffuse * per_hour,
-        });
-    if light.is_none() {
-        let expected = "direct and diffuse radiation (nothing is known of this sky)";
-        warnings.push(WeatherWarning::MissingLight, diffuse.at, "a missing value", expected);
+/// A line of data.
+struct Line {
+    /// 1 to 24.
+    hour_of_day: f64,
+    /// 0 to 60.
+    minute: f64,
+    /// Of which the time is not known yet.
+    hour: WeatherHour,
+}
+
+impl Line {
+    fn new(row: &Row<'_>, warnings: &mut Warnings<WeatherWarning>) -> Result<Self, ParseError> {
+        let fields = row.by_commas();
+        let field = |n, what: &str| row.field(&fields, n, what);
+        let [month, day] = date(&field(MONTH, "a month")?, &field(DAY, "a day")?)?;
+        let what = "the hour, 1 to 24";
+        let hour_of_day = number(&field(HOUR, what)?, 1.0..=24.0, what)?;
+        let what = "the minute that an interval ends with, 0 to 60";
+        let minute = number(&field(MINUTE, what)?, 0.0..=60.0, what)?;
+        let direct = radiation(&field(DIRECT_NORMAL, "the direct normal radiation in Wh/m2")?)?;
+        let diffuse = field(DIFFUSE_HORIZONTAL, "the diffuse horizontal radiation in Wh/m2")?;
+        let light = direct.zip(radiation(&diffuse)?);
+        let light = light.map(|(direct, diffuse)| WeatherLight { direct, diffuse });
+        if light.is_none() {
+            let expected = "direct and diffuse radiation (nothing is known of this sky)";
+            warnings.push(WeatherWarning::MissingLight, diffuse.at, "a missing value", expected);
+        }
+        let what = "the dew point in degrees Celsius, -90 to 70, or 99.9 where it is missing";
+        let dew_point = number(&field(DEW_POINT, what)?, -90.0..=100.0, what)?;
+        let dew_point_c = Some(dew_point).filter(|celsius| *celsius < MISSING_TEMPERATURE);
+        let hour = WeatherHour { month, day, seconds: 0.0, light, dew_point_c };
+        Ok(Self { hour_of_day, minute, hour })
     }
-    let what = "the dew point in degrees Celsius, -90 to 70, or 99.9 where it is missing";
-    let dew_point = number(&field(DEW_POINT, what)?, -90.0..=100.0, what)?;
-    let dew_point_c = Some(dew_point).filter(|celsius| *celsius < MISSING_TEMPERATURE);
-    Ok(WeatherHour { month, day, seconds, light, dew_point_c })
 }
 
 /// `None` where it is missing.

@@ -9,12 +9,6 @@ use crate::point::SkyPoint;
 use crate::sky::{Sky, SkyLevel};
 use libm::sin;
 
-/// The years that the sun stands as in: files put months of many years together. Halfway between
-/// two leap years the sun of a date is that of the mean of four years.
-const COMMON_YEAR: i32 = 2002;
-/// The year of files that have a 29th of February.
-const LEAP_YEAR: i32 = 2000;
-
 /// Below this altitude horizontal irradiances of the sun say nothing of its beam.
 const MIN_BEAM_ALTITUDE_DEG: f64 = 1.0;
 /// How often illuminances are turned into irradiances of which the efficacies are known.
@@ -82,9 +76,7 @@ impl Weather {
     /// # Errors
     /// For dates that no year has.
     pub fn time_of(&self, hour: &WeatherHour) -> Result<LocalTime, SkyError> {
-        let has_leap_day = self.hours.iter().any(|hour| (hour.month, hour.day) == (2, 29));
-        let year = if has_leap_day { LEAP_YEAR } else { COMMON_YEAR };
-        LocalTime::new(year, hour.month, hour.day, hour.seconds)
+        LocalTime::new(self.year, hour.month, hour.day, hour.seconds)
     }
 
     fn irradiance(&self, light: WeatherLight, sun: SkyPoint) -> Irradiance {

@@ -4,9 +4,12 @@
 //! line. Values of EPW are means of the interval *before* their time stamp:
 //! [`WeatherHour::seconds`] is its middle, where the sun belongs. WEA gives the middle itself.
 
+mod dark_hours;
 mod epw;
 mod interval;
 mod light;
+mod odd;
+mod possible;
 mod row;
 mod wea;
 
@@ -25,8 +28,13 @@ pub struct Weather {
     pub site: Site,
     /// What direct and diffuse values mean.
     pub units: WeatherUnits,
-    /// The intervals, in the order of the file.
+    /// How long an interval is in s, at most an hour.
+    pub interval_s: f64,
+    /// The intervals, in the order of the file. Where a WEA file of a year leaves out its nights,
+    /// they are here all the same, dark.
     pub hours: Vec<WeatherHour>,
+    /// The year that all dates are taken to be of.
+    year: i32,
 }
 
 /// The units of a file.
@@ -74,6 +82,18 @@ pub enum WeatherWarning {
     MissingLight,
     /// There are more or fewer intervals than a year has.
     OtherThanAYear,
+    /// Intervals are longer or shorter than the header says.
+    OtherThanDeclared,
+    /// Shorter intervals than hours: whether values are powers or energies had to be found out.
+    PowerOrEnergy,
+    /// An interval is not after the one before it, or comes twice.
+    OutOfOrder,
+    /// More light than sun and sky of that time can give.
+    MoreThanPossible,
+    /// Light while the sun is far below the horizon.
+    LightByNight,
+    /// The clock is far from that of the sun at this longitude.
+    ZoneOfAnotherPlace,
 }
 
 /// A weather file with what is odd in it.
@@ -92,7 +112,12 @@ impl From<TextWarning> for WeatherWarning {
 }
 
 /// Hours of a year without and with a leap day.
-const HOURS: [usize; 2] = [8760, 8784];
+const HOURS: [f64; 2] = [8760.0, 8784.0];
+const HOUR_S: f64 = 3600.0;
+/// Halfway between two leap years the sun of a date is that of the mean of four years.
+const COMMON_YEAR: i32 = 2002;
+/// Of files that have a 29th of February.
+const LEAP_YEAR: i32 = 2000;
 /// More than the sun gives anywhere on the ground.
 const MAX_IRRADIANCE_W_M2: f64 = 2000.0;
 const MAX_ILLUMINANCE_LX: f64 = 250_000.0;
@@ -108,16 +133,50 @@ impl Weather {
         let rows: Vec<Row<'_>> =
             (1..).zip(lines(&text)).map(|(n, text)| Row::new(n, text)).collect();
         let first = rows.first().map_or("", Row::text);
-        let weather = if first.starts_with("LOCATION") {
+        let (mut weather, places) = if first.starts_with("LOCATION") {
             epw::read(&rows, &mut warnings)?
         } else if first.trim_start().starts_with("place") {
-            wea::read(&rows, &mut warnings)?
+            wea::read(&rows)?
         } else {
             let expected = "LOCATION (EPW) or place (WEA)";
             return Err(ParseError::new(Position::START, quasilux_text::quoted(first), expected));
         };
+        odd::tell(&weather, &places, &mut warnings);
+        dark_hours::fill_in(&mut weather);
+        weather.expect_a_year(&mut warnings);
         Ok(ParsedWeather { weather, warnings: warnings.into_vec() })
     }
+
+    /// Whether there is an interval for all hours of a year, and no more.
+    #[must_use]
+    pub fn is_of_a_year(&self) -> bool {
+        let hours = self.hours.len() as f64 * self.interval_s / HOUR_S;
+        HOURS.iter().any(|year| (hours - year).abs() < 0.5)
+    }
+
+    /// Warns of a file that is not of a year.
+    fn expect_a_year(&self, warnings: &mut Warnings<WeatherWarning>) {
+        if !self.is_of_a_year() {
+            let a_day = 24.0 * HOUR_S / self.interval_s;
+            let [common, leap] = [365.0, 366.0].map(|days: f64| (days * a_day).round());
+            let found = format!("{} intervals", self.hours.len());
+            let expected = format!("{common} or {leap} (read as they are)");
+            warnings.push(WeatherWarning::OtherThanAYear, Position::START, found, expected);
+        }
+    }
+}
+
+impl WeatherHour {
+    /// The month, the day, and the seconds from midnight of the middle.
+    fn time(&self) -> (u32, u32, f64) {
+        (self.month, self.day, self.seconds)
+    }
+}
+
+/// The year that dates are taken to be of: files put months of many years together.
+fn year_of(hours: &[WeatherHour]) -> i32 {
+    let has_leap_day = hours.iter().any(|hour| (hour.month, hour.day) == (2, 29));
+    if has_leap_day { LEAP_YEAR } else { COMMON_YEAR }
 }
 
 impl WeatherUnits {
@@ -127,15 +186,5 @@ impl WeatherUnits {
             Self::Irradiance | Self::HorizontalIrradiance => MAX_IRRADIANCE_W_M2,
             Self::Illuminance => MAX_ILLUMINANCE_LX,
         }
-    }
-}
-
-/// Warns of a file that has not one interval an hour of a year.
-fn expect_a_year(hours: usize, per_hour: usize, warnings: &mut Warnings<WeatherWarning>) {
-    if !HOURS.map(|all| all * per_hour).contains(&hours) {
-        let found = format!("{hours} intervals");
-        let expected =
-            format!("{} or {} (read as they are)", HOURS[0] * per_hour, HOURS[1] * per_hour);
-        warnings.push(WeatherWarning::OtherThanAYear, Position::START, found, expected);
     }
 }

@@ -1,24 +1,22 @@
 //! Radiance's WEA: six lines of a header, then month, day, hour, direct and diffuse light.
 
+use super::interval::usual_interval_s;
 use super::row::{Row, date, number};
-use super::{Weather, WeatherHour, WeatherLight, WeatherUnits, WeatherWarning, expect_a_year};
+use super::{HOUR_S, Weather, WeatherHour, WeatherLight, WeatherUnits, year_of};
 use crate::sun::Site;
-use quasilux_text::{ParseError, Token, Warnings, quoted};
+use quasilux_text::{ParseError, Position, Token, quoted};
 
 /// Degrees that the sun goes on in an hour.
 const DEGREES_AN_HOUR: f64 = 15.0;
 
-pub(super) fn read(
-    rows: &[Row<'_>],
-    warnings: &mut Warnings<WeatherWarning>,
-) -> Result<Weather, ParseError> {
+pub(super) fn read(rows: &[Row<'_>]) -> Result<(Weather, Vec<Position>), ParseError> {
     let place = rows[0].text().trim_start().trim_start_matches("place").trim().to_owned();
     let mut rows = rows[1..].iter().filter(|row| !row.text().trim().is_empty());
     let mut header = |key: &str, most: f64| {
         let what = format!("{key} with a number within -{most} and {most}");
-        let row = rows.next().ok_or_else(|| {
-            ParseError::new(quasilux_text::Position::START, "a header that ends early", &what)
-        })?;
+        let row = rows
+            .next()
+            .ok_or_else(|| ParseError::new(Position::START, "a header that ends early", &what))?;
         let fields = row.by_blanks();
         let name = row.field(&fields, 0, &what)?;
         if name.text != key {
@@ -42,10 +40,13 @@ pub(super) fn read(
         3.0 => WeatherUnits::Illuminance,
         _ => return Err(ParseError::new(units_at.at, quoted(units_at.text), "1, 2 or 3")),
     };
-    let hours = rows.map(|row| hour(row, units));
+    let rows: Vec<&Row<'_>> = rows.collect();
+    let hours = rows.iter().map(|row| hour(row, units));
     let hours = hours.collect::<Result<Vec<WeatherHour>, ParseError>>()?;
-    expect_a_year(hours.len(), 1, warnings);
-    Ok(Weather { place, site, units, hours })
+    let interval_s = usual_interval_s(hours.iter().map(WeatherHour::time)).unwrap_or(HOUR_S);
+    let places = rows.iter().map(|row| row.start()).collect();
+    let year = year_of(&hours);
+    Ok((Weather { place, site, units, interval_s, hours, year }, places))
 }
 
 fn hour(row: &Row<'_>, units: WeatherUnits) -> Result<WeatherHour, ParseError> {

@@ -45,18 +45,120 @@ fn hours_are_told_by_their_middle() {
     let dew_points: Vec<_> = hours.iter().map(|hour| hour.dew_point_c).collect();
     assert_eq!(dew_points, [Some(7.0), None, Some(-3.5)]);
     let kinds: Vec<WeatherWarning> = parsed.warnings.iter().map(|it| it.kind()).collect();
-    assert_eq!(kinds, [WeatherWarning::MissingLight, WeatherWarning::OtherThanAYear]);
+    let told =
+        [WeatherWarning::MissingLight, WeatherWarning::OutOfOrder, WeatherWarning::OtherThanAYear];
+    assert_eq!(kinds, told);
     assert_eq!(parsed.warnings[0].line(), 11);
 }
 
-/// Quarters of an hour, of which the minute tells the end; energy becomes power.
+/// Quarters of an hour, of which the minute tells the end; values are powers.
 #[test]
 fn shorter_intervals_are_told_by_the_minute() {
     let quarter = line("2026,1,1,10,15", "7.0", ["150", "25"]);
     let text = String::from_utf8(epw(&[quarter])).unwrap().replace("PERIODS,1,1,", "PERIODS,1,4,");
     let hour = hour_of(text.as_bytes());
     assert_eq!(hour.seconds / 3600.0, 9.125);
-    assert_eq!(hour.light, Some(WeatherLight { direct: 600.0, diffuse: 100.0 }));
+    assert_eq!(hour.light, Some(WeatherLight { direct: 150.0, diffuse: 25.0 }));
+}
+
+/// Lines for 60 days of June and July, some of them clear, so many an hour; light by the hour of the
+/// day, where it is up to 900 and 100 W/m2, in parts of `unit`.
+fn summer(an_hour: u32, unit: f64) -> Vec<String> {
+    let mut lines = Vec::new();
+    for (month, day) in (6..8).flat_map(|month| (1..31).map(move |day| (month, day))) {
+        for (hour, part) in (1..25).flat_map(|hour| (1..=an_hour).map(move |part| (hour, part))) {
+            let up = libm::sin(std::f64::consts::PI * (f64::from(hour) - 5.0) / 16.0).max(0.0);
+            let is_day = (5..21).contains(&hour);
+            let clear = if day % 3 == 0 && is_day { up } else { 0.0 };
+            let date = format!("2026,{month},{day},{hour},{}", 60 * part / an_hour);
+            let light = [900.0 * clear, if is_day { 100.0 * up } else { 0.0 }];
+            let [direct, diffuse] = light.map(|value| format!("{:.3}", value * unit));
+            lines.push(line(&date, "7.0", [&direct, &diffuse]));
+        }
+    }
+    lines
+}
+
+fn kinds(parsed: &quasilux_sky::ParsedWeather) -> Vec<WeatherWarning> {
+    parsed.warnings.iter().map(|warning| warning.kind()).collect()
+}
+
+/// Whatever the header says, and in whichever unit: light and its duration are those of the lines.
+#[test]
+fn shorter_intervals_have_the_light_of_hours() {
+    use WeatherWarning::{OtherThanAYear, OtherThanDeclared, PowerOrEnergy};
+    let light = |parsed: &quasilux_sky::ParsedWeather| {
+        let lights = parsed.weather.hours.iter().filter_map(|hour| hour.light);
+        let sum: f64 = lights.map(|light| light.direct + light.diffuse).sum();
+        sum * parsed.weather.interval_s / 3600.0
+    };
+    let hourly = Weather::parse(&epw(&summer(1, 1.0))).unwrap();
+    assert_eq!(kinds(&hourly), [OtherThanAYear]);
+    for an_hour in [2, 4, 6, 12] {
+        for declared in [1, 2, an_hour] {
+            for unit in [1.0, 1.0 / f64::from(an_hour)] {
+                let text = String::from_utf8(epw(&summer(an_hour, unit))).unwrap();
+                let text = text.replace("PERIODS,1,1,", &format!("PERIODS,1,{declared},"));
+                let parsed = Weather::parse(text.as_bytes()).unwrap();
+                assert_eq!(parsed.weather.interval_s, 3600.0 / f64::from(an_hour));
+                let ratio = light(&parsed) / light(&hourly);
+                assert!((ratio - 1.0).abs() < 1e-3, "{an_hour} {declared} {unit}: {ratio}");
+                let mut told = vec![OtherThanDeclared, PowerOrEnergy, OtherThanAYear];
+                if declared == an_hour {
+                    told.remove(0);
+                }
+                assert_eq!(kinds(&parsed), told);
+                let first = parsed.weather.hours[0].seconds;
+                assert_eq!(first, 0.5 * parsed.weather.interval_s, "{declared}");
+            }
+        }
+    }
+    // Two declared, one there.
+    for minute in ["0", "30", "60"] {
+        let text = String::from_utf8(epw(&summer(1, 1.0))).unwrap();
+        let text = text
+            .replace("PERIODS,1,1,", "PERIODS,1,2,")
+            .replace(",60,?9", &format!(",{minute},?9"));
+        let parsed = Weather::parse(text.as_bytes()).unwrap();
+        assert_eq!(parsed.weather.hours, hourly.weather.hours, "{minute}");
+        assert_eq!(kinds(&parsed), [OtherThanDeclared, OtherThanAYear]);
+    }
+}
+
+/// Each is told, and read as it is.
+#[test]
+fn files_that_cannot_be_right_are_told() {
+    use WeatherWarning::{LightByNight, MoreThanPossible, OutOfOrder, ZoneOfAnotherPlace};
+    let told = |change: &dyn Fn(&mut Vec<String>, &mut String)| {
+        let (mut lines, mut header) = (summer(1, 1.0), HEADER.to_owned());
+        change(&mut lines, &mut header);
+        let parsed = Weather::parse((header + &lines.concat()).as_bytes()).unwrap();
+        let mut kinds = kinds(&parsed);
+        assert_eq!(kinds.pop(), Some(WeatherWarning::OtherThanAYear));
+        kinds
+    };
+    let set = |number: usize, light: [&'static str; 2]| {
+        move |lines: &mut Vec<String>, _: &mut String| {
+            let date = lines[number].split(",?").next().unwrap().to_owned();
+            lines[number] = line(&date, "7.0", light);
+        }
+    };
+    assert_eq!(told(&|_, _| {}), []);
+    assert_eq!(told(&set(12, ["1500", "100"])), [MoreThanPossible]);
+    assert_eq!(told(&set(12, ["1000", "1200"])), [MoreThanPossible]);
+    assert_eq!(told(&set(0, ["0", "93"])), [LightByNight]);
+    assert_eq!(told(&set(0, ["0", "3"])), []);
+    assert_eq!(told(&|lines, _| lines.swap(30, 700)), [OutOfOrder]);
+    assert_eq!(told(&|lines, _| lines[30] = lines[29].clone()), [OutOfOrder]);
+    let elsewhere = |_: &mut Vec<String>, header: &mut String| {
+        *header = header.replace("13.4,1.0", "138.0,-5.0");
+    };
+    assert!(told(&elsewhere).starts_with(&[ZoneOfAnotherPlace, LightByNight]));
+    // The west of China by the clock of Beijing.
+    let china = |_: &mut Vec<String>, header: &mut String| {
+        *header = header.replace("13.4,1.0", "76.0,8.0");
+    };
+    assert!(!told(&china).contains(&ZoneOfAnotherPlace));
 }
 
 #[test]

@@ -188,9 +188,8 @@ impl<'p> Year<'p> {
         failure.map_or(written, Err)?;
         report.run.seconds += begin.elapsed().as_secs_f64();
         write(&report, folder, self.project.title())?;
-        let warnings = &self.project.loaded.warnings;
         if output.json {
-            warnings.iter().for_each(|warning| tell(format_args!("warning: {warning}")));
+            report.run.warnings.iter().for_each(|warning| tell(format_args!("warning: {warning}")));
             print(&annual_json(&report))?;
         } else if !output.quiet {
             print(&annual_table(&report))?;
@@ -203,6 +202,22 @@ impl<'p> Year<'p> {
         })
     }
 
+    /// Those of the project, and of the skies of its hours.
+    fn warnings(&self) -> Vec<String> {
+        let own = &self.project.loaded.warnings;
+        let mut warnings: Vec<String> = own.iter().map(ToString::to_string).collect();
+        let held = self.calendar.skies.iter().filter(|hour| hour.sky.is_held()).count();
+        if held > 0 {
+            warnings.push(format!(
+                "{held} of {} hours with light have the sun too low for the sky of Perez (b > 0); \
+                 they have the nearest brightness that the model has a sky for, and the \
+                 illuminance of their own",
+                self.calendar.skies.len()
+            ));
+        }
+        warnings
+    }
+
     /// A report without points.
     fn report(&self) -> Result<AnnualReport<'_>, CliError> {
         let scene = &self.project.loaded.scene;
@@ -213,7 +228,7 @@ impl<'p> Year<'p> {
             threads: self.threads,
             settings: self.settings.clone(),
             work: YearWork::default(),
-            warnings: self.project.loaded.warnings.iter().map(ToString::to_string).collect(),
+            warnings: self.warnings(),
         };
         let occupied_h = self.occupied_h.clone();
         let mut report = AnnualReport::begin(scene, self.weather, &self.calendar, occupied_h, run);
