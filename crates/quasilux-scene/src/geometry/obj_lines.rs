@@ -300,7 +300,8 @@ mod tests {
     #[test]
     fn objects_and_materials_last_until_others_come() {
         let text = "f 1 2 3\nusemtl a\nf 1 2 3\no first\no second\nf 1 2 3\nusemtl b\n\
-                    g second\nf 1 2 3\nusemtl a\ng\nf 3 2 1\nusemtl \nf 1 2 3\nv 0 0 0\nv 1 0 0\nv 0 1 0\n";
+                    g second\nf 1 2 3\nusemtl a\ng\nf 3 2 1\nusemtl \nf 1 2 3\n\
+                    v 0 0 0\nv 1 0 0\nv 0 1 0\n";
         let lines = read("a.obj", text.as_bytes()).unwrap();
         let objects: Vec<&str> =
             lines.faces.iter().map(|face| lines.objects[face.object].as_str()).collect();

@@ -3,7 +3,10 @@
 use super::interval::usual_interval_s;
 use super::possible::Possible;
 use super::row::{Row, date, number};
-use super::{HOUR_S, Weather, WeatherHour, WeatherLight, WeatherUnits, WeatherWarning, year_of};
+use super::{
+    HOUR_S, PlacedWeather, Weather, WeatherHour, WeatherLight, WeatherUnits, WeatherWarning,
+    year_of,
+};
 use crate::sun::Site;
 use quasilux_text::{ParseError, Position, Token, Warnings, quoted};
 
@@ -31,7 +34,7 @@ const CLEAR_ABOVE_DEG: f64 = 15.0;
 pub(super) fn read(
     rows: &[Row<'_>],
     warnings: &mut Warnings<WeatherWarning>,
-) -> Result<(Weather, Vec<Position>), ParseError> {
+) -> Result<PlacedWeather, ParseError> {
     let location = rows[0];
     let fields = location.by_commas();
     let at = |n, what: &str| location.field(&fields, n, what);
@@ -42,7 +45,7 @@ pub(super) fn read(
     let time_zone_h = degrees(8, 15.0, "hours ahead of Greenwich, -15 to 15")?;
     let site = Site::new(latitude_deg, longitude_deg, time_zone_h)
         .map_err(|error| ParseError::new(location.start(), error, "a site"))?;
-    let (declared_at, declared) = intervals_per_hour(rows)?;
+    let Declared { at: declared_at, an_hour: declared } = intervals_per_hour(rows)?;
     let data = rows.iter().skip(HEADER).filter(|row| !row.text().trim().is_empty());
     let data: Vec<&Row<'_>> = data.collect();
     let lines = data.iter().map(|row| Line::new(row, warnings));
@@ -70,7 +73,7 @@ pub(super) fn read(
     if interval_s < HOUR_S {
         tell_powers_from_energies(&mut weather, declared_at, warnings);
     }
-    Ok((weather, places))
+    Ok(PlacedWeather { weather, places })
 }
 
 /// Whether the minute of a line says when its interval ends. Of whole hours it is always 0 or
@@ -85,8 +88,8 @@ fn minutes_tell(lines: &[Line], declared: f64) -> bool {
 
 /// The format says energies in Wh/m2, and EnergyPlus takes powers in W/m2; of hours both are the
 /// same. Values are powers, but where they show that they are not: over a month or longer no
-/// interval has half of what the sun gives above the air, as the clearest have more; and as energies
-/// all are possible.
+/// interval has half of what the sun gives above the air, as the clearest have more; and as
+/// energies all are possible.
 fn tell_powers_from_energies(
     weather: &mut Weather,
     at: Position,
@@ -122,8 +125,14 @@ fn tell_powers_from_energies(
     warnings.push(WeatherWarning::PowerOrEnergy, at, found, expected);
 }
 
-/// From the last line of the header, with its place.
-fn intervals_per_hour(rows: &[Row<'_>]) -> Result<(Position, f64), ParseError> {
+/// How many intervals an hour has by the header.
+struct Declared {
+    at: Position,
+    an_hour: f64,
+}
+
+/// From the last line of the header.
+fn intervals_per_hour(rows: &[Row<'_>]) -> Result<Declared, ParseError> {
     let what = "DATA PERIODS in line 8";
     let Some(row) = rows.get(HEADER - 1) else {
         let last = rows[rows.len() - 1];
@@ -138,7 +147,7 @@ fn intervals_per_hour(rows: &[Row<'_>]) -> Result<(Position, f64), ParseError> {
     let per_hour = row.field(&fields, 2, what)?;
     let count = number(&per_hour, 1.0..=60.0, what)?;
     if 60.0 % count == 0.0 {
-        Ok((per_hour.at, count))
+        Ok(Declared { at: per_hour.at, an_hour: count })
     } else {
         Err(ParseError::new(per_hour.at, quoted(per_hour.text), what))
     }

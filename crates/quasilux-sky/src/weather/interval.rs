@@ -1,6 +1,6 @@
 //! Which interval of a weather file a time belongs to.
 
-use super::{HOUR_S, Weather};
+use super::{HOUR_S, TimeOfYear, Weather};
 use std::collections::BTreeMap;
 
 /// Two middles that are nearer than this, in s, are of the same interval: decimals of hours are
@@ -9,20 +9,18 @@ const SAME_S: f64 = 1.0;
 /// The part that steps between hours of two decimals are off.
 const ROUNDED: f64 = 0.02;
 
-/// How long intervals are in s by the times in s at which one ends or is in its middle, with the
-/// month and the day: by the step from one to the next that most of them have, if it is a part of
-/// an hour. `None` where no two are of one day.
+/// How long intervals are in s by the times at which one ends or is in its middle: by the step from
+/// one to the next that most of them have, if it is a part of an hour. `None` where no two are of
+/// one day.
 ///
 /// Files of hours with the sun up leave out nights, some have odd times around sunrise: neither
 /// makes an interval longer or shorter.
-pub(super) fn usual_interval_s(
-    times: impl Iterator<Item = (u32, u32, f64)> + Clone,
-) -> Option<f64> {
+pub(super) fn usual_interval_s(times: impl Iterator<Item = TimeOfYear> + Clone) -> Option<f64> {
     let mut steps = BTreeMap::<u32, usize>::new();
     let mut all = 0;
-    for ((month, day, earlier), (next_month, next_day, later)) in times.clone().zip(times.skip(1)) {
-        let step_s = later - earlier;
-        if (month, day) == (next_month, next_day) && step_s > SAME_S {
+    for (time, next) in times.clone().zip(times.skip(1)) {
+        let step_s = next.seconds - time.seconds;
+        if (time.month, time.day) == (next.month, next.day) && step_s > SAME_S {
             all += 1;
             if step_s < HOUR_S + SAME_S {
                 *steps.entry(step_s.round() as u32).or_default() += 1;

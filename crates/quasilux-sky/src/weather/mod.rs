@@ -133,7 +133,7 @@ impl Weather {
         let rows: Vec<Row<'_>> =
             (1..).zip(lines(&text)).map(|(n, text)| Row::new(n, text)).collect();
         let first = rows.first().map_or("", Row::text);
-        let (mut weather, places) = if first.starts_with("LOCATION") {
+        let PlacedWeather { mut weather, places } = if first.starts_with("LOCATION") {
             epw::read(&rows, &mut warnings)?
         } else if first.trim_start().starts_with("place") {
             wea::read(&rows)?
@@ -167,10 +167,23 @@ impl Weather {
 }
 
 impl WeatherHour {
-    /// The month, the day, and the seconds from midnight of the middle.
-    fn time(&self) -> (u32, u32, f64) {
-        (self.month, self.day, self.seconds)
+    fn time(&self) -> TimeOfYear {
+        TimeOfYear { month: self.month, day: self.day, seconds: self.seconds }
     }
+}
+
+/// A time of day in s on a date, earlier ones first.
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+struct TimeOfYear {
+    month: u32,
+    day: u32,
+    seconds: f64,
+}
+
+/// A file with the places of its intervals, as it stands there.
+struct PlacedWeather {
+    weather: Weather,
+    places: Vec<Position>,
 }
 
 /// The year that dates are taken to be of: files put months of many years together.

@@ -2,14 +2,14 @@
 
 use super::interval::usual_interval_s;
 use super::row::{Row, date, number};
-use super::{HOUR_S, Weather, WeatherHour, WeatherLight, WeatherUnits, year_of};
+use super::{HOUR_S, PlacedWeather, Weather, WeatherHour, WeatherLight, WeatherUnits, year_of};
 use crate::sun::Site;
 use quasilux_text::{ParseError, Position, Token, quoted};
 
 /// Degrees that the sun goes on in an hour.
 const DEGREES_AN_HOUR: f64 = 15.0;
 
-pub(super) fn read(rows: &[Row<'_>]) -> Result<(Weather, Vec<Position>), ParseError> {
+pub(super) fn read(rows: &[Row<'_>]) -> Result<PlacedWeather, ParseError> {
     let place = rows[0].text().trim_start().trim_start_matches("place").trim().to_owned();
     let mut rows = rows[1..].iter().filter(|row| !row.text().trim().is_empty());
     let mut header = |key: &str, most: f64| {
@@ -46,7 +46,8 @@ pub(super) fn read(rows: &[Row<'_>]) -> Result<(Weather, Vec<Position>), ParseEr
     let interval_s = usual_interval_s(hours.iter().map(WeatherHour::time)).unwrap_or(HOUR_S);
     let places = rows.iter().map(|row| row.start()).collect();
     let year = year_of(&hours);
-    Ok((Weather { place, site, units, interval_s, hours, year }, places))
+    let weather = Weather { place, site, units, interval_s, hours, year };
+    Ok(PlacedWeather { weather, places })
 }
 
 fn hour(row: &Row<'_>, units: WeatherUnits) -> Result<WeatherHour, ParseError> {
