@@ -6,7 +6,7 @@ use crate::local_time::LocalTime;
 
 /// The sun is up for half of the hours of a year everywhere, within some 3 %; a file that has so
 /// many leaves out nights alone.
-const LEAST_HOURS: f64 = 4000.0;
+const MIN_HOURS: f64 = 4000.0;
 /// An interval of which the sun is up for a moment has its middle below this, in degrees.
 const HARDLY_UP_DEG: f64 = 3.0;
 const DARK: Option<WeatherLight> = Some(WeatherLight { direct: 0.0, diffuse: 0.0 });
@@ -14,7 +14,7 @@ const DARK: Option<WeatherLight> = Some(WeatherLight { direct: 0.0, diffuse: 0.0
 /// Puts in the intervals that are missing: dark ones where the sun is down, else unknown ones. Not
 /// where a day with sun is missing as a whole: such a file is not of a year.
 pub(super) fn fill_in(weather: &mut Weather) {
-    let enough = weather.hours.len() as f64 * weather.interval_s >= LEAST_HOURS * HOUR_S;
+    let enough = weather.hours.len() as f64 * weather.interval_s >= MIN_HOURS * HOUR_S;
     if weather.is_of_a_year() || !enough || !is_in_order(&weather.hours) {
         return;
     }

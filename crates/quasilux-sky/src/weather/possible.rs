@@ -8,7 +8,7 @@ use crate::perez::{SOLAR_CONSTANT_W_M2, eccentricity};
 use libm::{pow, sin};
 
 /// More than the efficacy of any daylight, in lm/W.
-const MOST_LM_W: f64 = 160.0;
+const MAX_LM_W: f64 = 160.0;
 
 /// Sun and limits of an interval.
 pub(super) struct Possible {
@@ -81,5 +81,5 @@ impl Possible {
 }
 
 fn efficacy(units: WeatherUnits) -> f64 {
-    if units == WeatherUnits::Illuminance { MOST_LM_W } else { 1.0 }
+    if units == WeatherUnits::Illuminance { MAX_LM_W } else { 1.0 }
 }
