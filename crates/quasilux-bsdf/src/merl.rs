@@ -75,7 +75,7 @@ pub fn read_merl(bytes: &[u8]) -> Result<Parsed, ParseError> {
     };
     let mut bsdf = MeasuredBsdf::new(facts);
     bsdf.set(Side::Front, ScatteringMode::Reflection, Distribution::Gridded(table));
-    warn_of_defects(&bsdf, start, &mut warnings);
+    warn_of_defects(&bsdf, start, &mut warnings)?;
     Ok(Parsed { bsdf, warnings: warnings.into_vec() })
 }
 

@@ -82,7 +82,7 @@ pub fn read_astm(bytes: &[u8]) -> Result<Parsed, ParseError> {
         }
     }
     warn_of_one_way(&bsdf, at, &mut warnings);
-    warn_of_defects(&bsdf, at, &mut warnings);
+    warn_of_defects(&bsdf, at, &mut warnings)?;
     Ok(Parsed { bsdf, warnings: warnings.into_vec() })
 }
 

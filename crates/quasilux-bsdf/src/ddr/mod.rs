@@ -72,7 +72,7 @@ pub fn read_ddr(bytes: &[u8], mode: ScatteringMode) -> Result<Parsed, ParseError
     let mut bsdf = MeasuredBsdf::new(facts);
     bsdf.set(Side::Front, mode, Distribution::Gridded(table));
     warn_of_one_way(&bsdf, header.at, &mut warnings);
-    warn_of_defects(&bsdf, header.at, &mut warnings);
+    warn_of_defects(&bsdf, header.at, &mut warnings)?;
     Ok(Parsed { bsdf, warnings: warnings.into_vec() })
 }
 

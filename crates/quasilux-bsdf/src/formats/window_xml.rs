@@ -63,7 +63,7 @@
 //! | [`MissingReflection`] | nothing is reflected there | `50:3: found no Reflection back; expected the reflection of both sides (nothing is reflected)` |
 //! | [`LayersLeftOut`] | left out | `90:3: found LayerNumber "1"; expected "System" alone (the data of other layers are left out)` |
 //! | [`BasisEndsEarly`] | light beyond the last band is absorbed, and none goes there | `50:3: found the basis "b" that ends 80.0 degrees from the normal; expected bands to 90 degrees (...)` |
-//! | [`EnergyNotConserved`] | used as it is | `50:3: found 101.3 % of the light scattered at 82.5 degrees on the front; expected no more than 100 % (used as it is)` |
+//! | [`EnergyNotConserved`] | used as it is, refused from 1000 times the light on | `50:3: found 101.3 % of the light scattered at 82.5 degrees on the front; expected no more than 100 % (used as it is)` |
 //! | [`NotReciprocal`] | used as it is | `50:3: found reflection front that differs from that of swapped directions by 7.0 % in the mean; expected the same both ways round (used as it is)` |
 //!
 //! [`Foreword`]: crate::WarningKind::Foreword

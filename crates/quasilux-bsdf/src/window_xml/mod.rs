@@ -65,7 +65,7 @@ pub fn read_bsdf_xml(bytes: &[u8]) -> Result<Parsed, ParseError> {
     }
     reciprocity::fill_transmission(&mut bsdf, &blocks, &mut warnings);
     block::warn_of_missing_reflection(&blocks, &mut warnings);
-    defects::warn_of_defects(&bsdf, blocks[0].element.at, &mut warnings);
+    defects::warn_of_defects(&bsdf, blocks[0].element.at, &mut warnings)?;
     Ok(Parsed { bsdf, warnings: warnings.into_vec() })
 }
 

@@ -258,6 +258,7 @@ fn what_is_no_surface_is_refused_with_its_place() {
     let deep = |levels: usize| "{".repeat(levels) + "1";
     for (text, line, expected) in [
         ("<IESTM33-22/>".to_owned(), 1, "WindowElement"),
+        (plain.replace("0.55", "1e9"), 2, "no more than 100 %"),
         (plain.replace("Layer>", "Coating>"), 1, "the optical layer"),
         (plain.replace("Columns", "Cells"), 1, "Columns, Rows"),
         (plain.replace("<UpperTheta>30", "<UpperTheta>95"), 1, "95, where the one before it ends"),
