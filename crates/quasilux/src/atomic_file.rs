@@ -7,7 +7,7 @@
 
 mod device;
 
-use std::fs::{self, File};
+use std::fs::{self, File, TryLockError};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
@@ -21,6 +21,7 @@ pub(crate) struct Finished(Option<Beside>);
 struct Beside {
     beside: PathBuf,
     place: PathBuf,
+    _locked: File,
 }
 
 /// Whether a file can be made there, by trying beside it.
@@ -29,8 +30,31 @@ pub(crate) fn try_beside(place: &Path) -> io::Result<()> {
         return Err(io::Error::new(io::ErrorKind::InvalidInput, "is no regular file"));
     }
     let beside = beside(&behind_links(place), "unfinished");
-    File::create(&beside)?;
+    create_new(&beside)?;
     fs::remove_file(beside)
+}
+
+/// Makes a file that is there for this process alone. What a run left that was killed makes room;
+/// what another is writing, or is no file, does not: nothing behind a link or a pipe is touched.
+fn create_new(path: &Path) -> io::Result<File> {
+    let file = match File::create_new(path) {
+        Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
+            if !fs::symlink_metadata(path)?.is_file() {
+                let message = format!("{} is in the way", path.display());
+                return Err(io::Error::new(io::ErrorKind::AlreadyExists, message));
+            }
+            if let Err(TryLockError::WouldBlock) = File::open(path)?.try_lock() {
+                let message = format!("another run is writing {}", path.display());
+                return Err(io::Error::new(io::ErrorKind::ResourceBusy, message));
+            }
+            fs::remove_file(path)?;
+            File::create_new(path)?
+        }
+        created => created?,
+    };
+    // A file system without locks leaves it unlocked.
+    _ = file.try_lock();
+    Ok(file)
 }
 
 /// Writes a file beside its place, piece by piece.
@@ -46,28 +70,31 @@ pub(crate) fn write_beside(
     }
     let place = behind_links(place);
     let beside = beside(&place, "unfinished");
-    let written = write_to(&beside, write);
+    let file = create_new(&beside)?;
+    let written = write_to(file, write);
     if written.is_err() {
         // Half a file is of no use, and may take the last of a disk.
         _ = fs::remove_file(&beside);
     }
-    written.map(|()| Finished(Some(Beside { beside, place })))
+    written.map(|file| Finished(Some(Beside { beside, place, _locked: file })))
 }
 
+/// The file, whole and on disk.
 fn write_to(
-    path: &Path,
+    file: File,
     write: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
-) -> io::Result<()> {
-    let mut file = BufWriter::new(File::create(path)?);
+) -> io::Result<File> {
+    let mut file = BufWriter::new(file);
     write(&mut file)?;
     let file = file.into_inner().map_err(io::IntoInnerError::into_error)?;
-    file.sync_all()
+    file.sync_all()?;
+    Ok(file)
 }
 
 impl Finished {
     /// Puts it in its place.
     pub(crate) fn publish(self) -> io::Result<()> {
-        let Self(Some(Beside { beside, place })) = self else { return Ok(()) };
+        let Self(Some(Beside { beside, place, _locked })) = self else { return Ok(()) };
         fs::rename(beside, &place)?;
         sync_folder(&place)
     }
@@ -132,6 +159,38 @@ mod tests {
         try_beside(&place).unwrap();
         assert_eq!(fs::read(&place).unwrap(), b"whole");
         assert!(try_beside(&folder.join("none").join("file")).is_err());
+        fs::remove_dir_all(folder).unwrap();
+    }
+
+    /// A killed run leaves a file, a running one holds it, and others put links and pipes there.
+    #[cfg(unix)]
+    #[test]
+    fn what_stands_beside_a_file_is_its_own() {
+        use std::os::unix::fs::symlink;
+        let folder = std::env::temp_dir().join(format!("quasilux-beside-{}", std::process::id()));
+        fs::create_dir_all(&folder).unwrap();
+        let place = folder.join("file");
+        let unfinished = folder.join("file.unfinished");
+        let write = || write_beside(&place, |file| file.write_all(b"new"))?.publish();
+        fs::write(&unfinished, b"half").unwrap();
+        write().unwrap();
+        assert_eq!(fs::read(&place).unwrap(), b"new");
+        let held = write_beside(&place, |file| file.write_all(b"other")).unwrap();
+        assert_eq!(write().unwrap_err().kind(), io::ErrorKind::ResourceBusy);
+        held.publish().unwrap();
+        assert_eq!(fs::read(&place).unwrap(), b"other");
+        fs::write(folder.join("mine"), b"mine").unwrap();
+        for target in ["mine", "none"] {
+            symlink(target, &unfinished).unwrap();
+            assert!(write().unwrap_err().to_string().contains("file.unfinished is in the way"));
+            fs::remove_file(&unfinished).unwrap();
+        }
+        assert_eq!(fs::read(folder.join("mine")).unwrap(), b"mine");
+        // A pipe without a reader would wait for ever.
+        let made = std::process::Command::new("mkfifo").arg(&unfinished).status().unwrap();
+        assert!(made.success());
+        assert!(write().is_err() && try_beside(&place).is_err());
+        assert_eq!(fs::read(&place).unwrap(), b"other");
         fs::remove_dir_all(folder).unwrap();
     }
 

@@ -7,12 +7,33 @@ use quasilux_report::{
     CameraReport, PictureOf, Report, SensorReport, camera_false_colour_png, csv, exr,
     false_colour_png, json, tone_mapped_png,
 };
+use std::fs::{File, TryLockError};
 use std::io::{self, Write};
 use std::path::Path;
 
 /// Makes sure that results can be written to `folder` before anything is computed.
 pub(crate) fn prepare(folder: &Path) -> Result<(), CliError> {
     std::fs::create_dir_all(folder).map_err(|error| cannot_write(folder, &error))
+}
+
+/// A folder of results that no other run may write to while this lives: files of two runs would be
+/// mixed there.
+#[derive(Debug)]
+pub(crate) struct Claim {
+    /// Locked, where the system can lock folders; the end of the process unlocks it.
+    _folder: Option<File>,
+}
+
+/// Makes a folder before anything is computed, and keeps other runs out of it.
+pub(crate) fn claim(folder: &Path) -> Result<Claim, CliError> {
+    prepare(folder)?;
+    let Ok(opened) = File::open(folder) else { return Ok(Claim { _folder: None }) };
+    if let Err(TryLockError::WouldBlock) = opened.try_lock() {
+        let message =
+            "another run writes its results there; expected a folder of its own, by --out";
+        return Err(CliError::in_file(folder.display(), None, message));
+    }
+    Ok(Claim { _folder: Some(opened) })
 }
 
 /// A file of results, not made yet.

@@ -239,6 +239,7 @@ pub(crate) struct Folder<'a> {
     scene: &'a Scene,
     /// What the project is called: its file without the ending.
     title: String,
+    _claim: results::Claim,
 }
 
 impl<'a> Folder<'a> {
@@ -261,8 +262,9 @@ impl<'a> Folder<'a> {
             }
         }
         let path = output.out.clone().unwrap_or(otherwise);
-        results::prepare(&path)?;
-        Ok(Self { path, output, scene: &project.loaded.scene, title: project.title().to_owned() })
+        let claim = results::claim(&path)?;
+        let (scene, title) = (&project.loaded.scene, project.title().to_owned());
+        Ok(Self { path, output, scene, title, _claim: claim })
     }
 
     pub(crate) fn path(&self) -> &Path {

@@ -108,7 +108,7 @@ fn kept_project(checkpoint: &Path, project: &Project) -> PathBuf {
 /// # Errors
 /// When one cannot be written.
 pub fn write(folder: &Path, project: &Project, finished: &Finished) -> Result<(), CliError> {
-    results::prepare(folder)?;
+    let _claim = results::claim(folder)?;
     let of = PictureOf { scene: &project.loaded.scene, title: project.title() };
     results::write(folder, &finished.report, of)
 }

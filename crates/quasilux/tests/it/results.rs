@@ -271,3 +271,27 @@ fn a_grey_triple_is_a_number() {
     });
     assert_eq!(triple, number);
 }
+
+/// Files of two runs would be mixed: the second is told at once, and the first loses nothing.
+#[cfg(unix)]
+#[test]
+fn a_folder_of_results_is_one_runs() {
+    let folder = Folder::new("results_of_two");
+    write_room(&folder, "room", &Look::GREY);
+    let run =
+        || folder.quasilux(&["run", "room.toml", "--samples", "64", "--out", "both", "--quiet"]);
+    assert_eq!(run().code, Some(3));
+    let before = folder.read("both/result.json");
+    let held = std::fs::File::open(folder.path("both")).unwrap();
+    held.lock().unwrap();
+    let second = run();
+    assert_eq!(second.code, Some(2), "{}", second.stderr);
+    assert!(
+        second.stderr.contains("both: another run writes its results there"),
+        "{}",
+        second.stderr
+    );
+    assert_eq!(folder.read("both/result.json"), before);
+    drop(held);
+    assert_eq!(run().code, Some(3));
+}

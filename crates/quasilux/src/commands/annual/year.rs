@@ -171,7 +171,7 @@ impl<'p> Year<'p> {
         output: &OutputArguments,
         fill: impl FnOnce(&mut Sink<'_, '_>) -> Result<bool, CliError>,
     ) -> Result<Exit, CliError> {
-        results::prepare(folder)?;
+        let _claim = results::claim(folder)?;
         let begin = Instant::now();
         let mut report = self.report()?;
         let mut failure = None;
