@@ -10,7 +10,9 @@ pub(crate) fn check(survey: &Survey<'_>, findings: &mut Findings<'_>) {
     for (number, camera) in scene.cameras.iter().enumerate() {
         let seen = &survey.camera_vertices[number];
         let position = camera.position;
-        if survey.is_lit(seen) || !survey.is_in_the_open(position) {
+        let shows_daylight = scene.environment.is_some()
+            && (seen.is_empty() || seen.iter().any(|vertex| survey.sees_the_sky(vertex)));
+        if shows_daylight || survey.is_lit(seen) || !survey.is_in_the_open(position) {
             continue;
         }
         let what = if seen.is_empty() {

@@ -11,6 +11,8 @@ use quasilux_scene::{Mesh, Scene};
 const FLAT: [&str; 4] = ["floor", "ceiling", "boden", "decke"];
 /// Positions that have to fit the geometry as it is turned now, and turned the other way.
 const FIT: [f64; 2] = [0.9, 0.99];
+/// Nothing is inside a geometry that is flatter than this part of its size.
+const FLAT_SHARE: f64 = 1e-3;
 /// Heights of usual rooms in m.
 const USUAL_HEIGHT_M: [f64; 2] = [2.2, 3.6];
 /// Walls that are larger than floor and ceiling by this factor may be these.
@@ -38,6 +40,10 @@ pub(crate) fn check(scene: &Scene, findings: &mut Findings<'_>) {
 
 /// The positions fit the geometry only when it is turned the other way.
 fn by_positions(scene: &Scene, geometry: &Extent, y_is_up: bool) -> Option<String> {
+    let edges = geometry.edges();
+    if edges.min_element() <= FLAT_SHARE * edges.max_element() {
+        return None;
+    }
     let positions = positions(scene);
     let turned = |p: DVec3| {
         if y_is_up { DVec3::new(p.x, p.z, -p.y) } else { DVec3::new(p.x, -p.z, p.y) }

@@ -3,7 +3,7 @@
 use crate::finding::{Check, Findings};
 use crate::names;
 use crate::probe::{cosine_direction, square};
-use crate::survey::{Asked, Survey};
+use crate::survey::{Asked, Survey, Vertex};
 use crate::units::{self, Thing};
 use glam::DVec3;
 use quasilux_scene::SensorPoint;
@@ -18,11 +18,18 @@ const NEAR_M: f64 = 0.1;
 const DIRECTIONS: u32 = 16;
 const NEAR_DIRECTIONS: usize = 14;
 
+/// Directions in which nothing is met, of a place in a room with windows, at most.
+const ROOM_SHARE: f64 = 0.1;
+
 /// What is odd about the points of one sensor.
 #[derive(Default)]
 struct Odd {
     tried: usize,
     outside: Vec<DVec3>,
+    /// How many of these are under the sky, on a roof or a square.
+    under_the_sky: usize,
+    /// Whether others are in a room.
+    is_in_a_room: bool,
     /// Each with the triangle before it.
     covered: Vec<Covered>,
 }
@@ -42,6 +49,11 @@ pub(crate) fn check(survey: &Survey<'_>, findings: &mut Findings<'_>) {
             odd.covered.push(Covered { position: asked.point.position, triangle });
         } else if !is_lit && is_outside(survey, asked) {
             odd.outside.push(asked.point.position);
+            let eye = Vertex::facing(survey.before(&asked.point), asked.point.normal);
+            odd.under_the_sky += usize::from(survey.sees_the_sky(&eye));
+        } else {
+            let share = survey.probe.escaping_share(survey.before(&asked.point));
+            odd.is_in_a_room |= share < ROOM_SHARE;
         }
     }
     for (number, odd) in odd.iter().enumerate() {
@@ -84,12 +96,16 @@ fn report(survey: &Survey<'_>, number: usize, odd: &Odd, findings: &mut Findings
             odd.tried, sensor.name
         ),
     };
-    if let Some(&first) = odd.outside.first() {
-        let message = format!(
-            "{} outside the geometry, where no light was found, as at {}",
-            share(odd.outside.len()),
-            names::position(first)
-        );
+    let is_under_the_sky = odd.under_the_sky == odd.outside.len();
+    // A roof, a square or a terrace is where people want to know it.
+    let is_meant = is_under_the_sky && !odd.is_in_a_room;
+    if let Some(&first) = odd.outside.first().filter(|_| !is_meant) {
+        let place_of = match is_under_the_sky {
+            true => "outside the room, under the sky",
+            false => "outside the geometry, where no light was found",
+        };
+        let message =
+            format!("{} {place_of}, as at {}", share(odd.outside.len()), names::position(first));
         let cure = units::cure(scene, first, Thing::Other).unwrap_or_else(|| {
             match odd.outside.len() < odd.tried {
                 true => "expected a grid that ends at the walls".to_owned(),

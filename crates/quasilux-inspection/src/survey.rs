@@ -28,6 +28,8 @@ const MAX_PAIRS: usize = 2048;
 const LIT_POINTS: usize = 64;
 /// Lamps that are asked whether they shine straight on a place.
 const MAX_LAMPS_ASKED: usize = 64;
+/// Directions in which the sky is looked for.
+const SKY_DIRECTIONS: u32 = 32;
 /// A place from which so many directions meet nothing is not in a room: behind a large flat surface
 /// it is a half, in front of a missing wall less than a third.
 const OPEN_SHARE: f64 = 0.35;
@@ -173,6 +175,20 @@ impl<'a> Survey<'a> {
     /// A hair in front of a sensor point.
     pub(crate) fn before(&self, point: &SensorPoint) -> DVec3 {
         point.position + point.normal * self.probe.hair_m
+    }
+
+    /// Whether light of a sky comes straight to a vertex.
+    pub(crate) fn sees_the_sky(&self, vertex: &Vertex) -> bool {
+        let meets_nothing = |direction: DVec3| {
+            direction.z > 0.0 && self.probe.first(vertex.position, direction).is_none()
+        };
+        self.probe.scene.environment.is_some()
+            && (0..SKY_DIRECTIONS).any(|i| {
+                meets_nothing(match vertex.normal {
+                    Some(normal) => cosine_direction(normal, square(i)),
+                    None => sphere_direction(i, SKY_DIRECTIONS),
+                })
+            })
     }
 
     /// Whether nothing is met in many directions from here.

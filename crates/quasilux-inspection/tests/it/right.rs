@@ -78,6 +78,8 @@ fn rooms_that_only_look_odd_are_right() {
         ("plain", office.clone()),
         ("a desk", office.clone().with(desk)),
         ("a window", wall_with_window(window).say("[[luminaires]]", panes)),
+        ("a roof under the sky", office.clone().add(SKY).add(ON_THE_ROOF)),
+        ("a square under the sky", square()),
         ("an uplight", office.clone().add(uplight)),
         ("up and down at one place", office.clone().add(back_to_back)),
         ("a lamp in the ceiling's plane", office.clone().say(tall, "position = [4.5, 2, 3]")),
@@ -98,6 +100,19 @@ fn rooms_that_only_look_odd_are_right() {
         ),
     ];
     quiet(cases.map(|(name, case)| (name.to_owned(), case.findings())));
+}
+
+const SKY: &str = "[sky]\nmodel = \"cie\"\ntype = 1\nhorizontal_illuminance_lx = 10000\n";
+const ON_THE_ROOF: &str = "[[sensors]]\nname = \"roof\"\nkind = \"points\"\n\
+    points = [[2, 2, 3.1], [4, 2, 3.1]]\nnormals = [[0, 0, 1], [1, 0, 0.1]]\n\
+    [[cameras]]\nname = \"c\"\nposition = [2, 2, 20]\ntarget = [3, 2, 3]\nvertical_fov_deg = 50\nresolution = [9, 6]\n";
+
+/// A flat model in the open, seen by points above it.
+fn square() -> Case {
+    let floor = |case: Case, name| case.without(name);
+    let walls = ["ceiling", "south", "north", "west", "east"];
+    let bare = "[materials.ceiling]\nreflectance = 0.8\n[materials.wall]\nreflectance = 0.6\n";
+    walls.into_iter().fold(Case::new(), floor).say(bare, "").add(SKY)
 }
 
 /// The room with the south wall around a pane.

@@ -291,6 +291,13 @@ fn sensors_in_wrong_places() {
             Check::SensorOutside,
             "ends at the walls",
         ),
+        sensor(
+            "beyond a wall, under the sky",
+            moved("[2.5, 0.5, 0.8]")
+                .add("[sky]\nmodel = \"cie\"\ntype = 1\nhorizontal_illuminance_lx = 10000\n"),
+            Check::SensorOutside,
+            "ends at the walls",
+        ),
         sensor("outside", moved("[7.5, 0.5, 0.8]"), Check::SensorOutside, "in the room"),
         sensor("above the ceiling", moved("[0.5, 0.5, 3.2]"), Check::SensorOutside, "in the room"),
         sensor(
