@@ -3,6 +3,7 @@
 //! Of each material its name, `Kd` (diffuse reflectance, kept within 0 to 1) and `Ke` (whether it
 //! emits) are read. Textures and highlights are not: a texture is warned of.
 
+use super::obj_lines::text_of;
 use crate::{Rgb, Warning};
 use quasilux_text::Position;
 
@@ -19,7 +20,7 @@ pub(super) struct MtlMaterial {
 
 /// Reads an MTL file; lines that make no sense are warned of and left out.
 pub(super) fn read(file: &str, bytes: &[u8], warnings: &mut Vec<Warning>) -> Vec<MtlMaterial> {
-    let text = String::from_utf8_lossy(bytes);
+    let text = text_of(bytes);
     let mut materials: Vec<MtlMaterial> = Vec::new();
     let mut textures = 0_u64;
     for (line, number) in text.lines().zip(1..) {

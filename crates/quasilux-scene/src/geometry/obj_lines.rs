@@ -7,7 +7,7 @@
 use super::builder::{MAX_TRIANGLES, TriangleError};
 use crate::LoadError;
 use glam::DVec3;
-use quasilux_text::Position;
+use quasilux_text::{Position, TextWarning, Warnings};
 use std::borrow::Cow;
 use std::collections::HashMap;
 use std::ops::Range;
@@ -54,13 +54,28 @@ type Words<'a> = std::iter::Peekable<std::vec::IntoIter<(usize, &'a str)>>;
 
 /// Reads an OBJ file.
 pub(super) fn read(file: &str, bytes: &[u8]) -> Result<ObjLines, LoadError> {
-    refuse_binary(file, bytes)?;
-    let text = String::from_utf8_lossy(bytes);
+    if !is_utf_16(bytes) {
+        refuse_binary(file, bytes)?;
+    }
+    let text = text_of(bytes);
     let mut reader = Reader::default();
     for Statement { line, text } in statements_of(&text) {
         reader.add(&StatementReader { file, line, statement: &text })?;
     }
     reader.finish(file)
+}
+
+/// UTF-16 by its byte order mark, as some programs on Windows write it, or else UTF-8, in which
+/// names of other encodings lose letters.
+pub(super) fn text_of(bytes: &[u8]) -> Cow<'_, str> {
+    if is_utf_16(bytes) {
+        return quasilux_text::decode(bytes, &mut Warnings::<TextWarning>::default());
+    }
+    String::from_utf8_lossy(bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes))
+}
+
+fn is_utf_16(bytes: &[u8]) -> bool {
+    matches!(bytes, [0xFF, 0xFE, ..] | [0xFE, 0xFF, ..])
 }
 
 fn refuse_binary(file: &str, bytes: &[u8]) -> Result<(), LoadError> {
@@ -295,6 +310,21 @@ mod tests {
         assert_eq!(lines.libraries, [("a b.mtl".to_owned(), Position { line: 2, column: 1 })]);
         assert_eq!(lines.materials, ["wood grain"]);
         assert_eq!(lines.thin_faces, 1);
+    }
+
+    #[test]
+    fn wide_text_is_read() {
+        let text = "o Tür\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+        let marked = format!("\u{FEFF}{text}");
+        let utf_16 = |bytes: fn(u16) -> [u8; 2]| -> Vec<u8> {
+            marked.encode_utf16().flat_map(bytes).collect()
+        };
+        for bytes in
+            [marked.clone().into_bytes(), utf_16(u16::to_le_bytes), utf_16(u16::to_be_bytes)]
+        {
+            let lines = read("a.obj", &bytes).unwrap();
+            assert_eq!((lines.objects, lines.positions.len()), (vec!["Tür".to_owned()], 3));
+        }
     }
 
     #[test]
