@@ -31,6 +31,7 @@ pub fn read_bsdf(bytes: &[u8]) -> Result<Parsed, ParseError> {
 /// # Errors
 /// All errors of [`read_bsdf`].
 pub fn read_bsdf_named(name: &str, bytes: &[u8]) -> Result<Parsed, ParseError> {
+    quasilux_text::refuse_web_page(bytes)?;
     if merl::counts(bytes).is_some() {
         return read_merl(bytes);
     }

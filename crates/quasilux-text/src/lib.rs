@@ -21,6 +21,7 @@ mod number;
 mod position;
 mod quote;
 mod warning;
+mod web_page;
 pub mod xml;
 
 pub use decode::{decode, lines};
@@ -29,6 +30,7 @@ pub use number::{Number, Token, check_room, number_list};
 pub use position::Position;
 pub use quote::{quoted, shortened};
 pub use warning::{TextWarning, Warning, Warnings};
+pub use web_page::refuse_web_page;
 
 /// Tests the example of the README.
 #[cfg(doctest)]

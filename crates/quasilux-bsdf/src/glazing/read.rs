@@ -27,6 +27,7 @@ const PRODUCT: &str = "a glazing product of the IGSDB (JSON)";
 /// [`ParseError`] where it is no JSON, no glazing that light goes straight through, or its spectra
 /// lack visible wavelengths.
 pub fn read_glazing(bytes: &[u8]) -> Result<ParsedGlazing, ParseError> {
+    quasilux_text::refuse_web_page(bytes)?;
     let mut warnings = Warnings::default();
     let text = decode(bytes, &mut warnings);
     let file: json::File =

@@ -66,6 +66,7 @@ const METRES_PER_FOOT: f64 = 0.3048;
 /// [`ParseError`] with the position where the header, an angle or a value is missing, no number or
 /// out of range.
 pub fn read_ies(bytes: &[u8]) -> Result<Parsed, ParseError> {
+    quasilux_text::refuse_web_page(bytes)?;
     let mut warnings = Warnings::default();
     let text = decode(bytes, &mut warnings);
     let lines: Vec<&str> = lines(&text).collect();

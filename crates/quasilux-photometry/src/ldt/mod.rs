@@ -69,6 +69,7 @@ const REFERENCE_FLUX_LM: f64 = 1000.0;
 /// # Errors
 /// [`ParseError`] with the position where a line is missing, no number or out of range.
 pub fn read_ldt(bytes: &[u8]) -> Result<Parsed, ParseError> {
+    quasilux_text::refuse_web_page(bytes)?;
     let mut warnings = Warnings::default();
     let text = decode(bytes, &mut warnings);
     let lines: Vec<&str> = lines(&text).collect();

@@ -29,6 +29,7 @@ use std::borrow::Cow;
 /// [`ParseError`] with the position where the XML is not well formed, or an element that
 /// intensities depend on is missing or out of range.
 pub fn read_tm33(bytes: &[u8]) -> Result<Parsed, ParseError> {
+    quasilux_text::refuse_web_page(bytes)?;
     let mut warnings = Warnings::default();
     let text = decode(bytes, &mut warnings);
     let root = xml::parse(text.trim_start_matches('\u{FEFF}'))?;

@@ -101,13 +101,16 @@ pub(crate) fn read_file(
     files: &dyn Files,
     kind: FileKind,
 ) -> Result<Vec<u8>, LoadError> {
-    reading::read(files, &name.value, kind).map_err(|error| {
+    let bytes = reading::read(files, &name.value, kind).map_err(|error| {
         let reason = reason(&error);
         project.error(
             name.place,
             format!("cannot read \"{}\": {reason}; expected a readable file", name.value),
         )
-    })
+    })?;
+    quasilux_text::refuse_web_page(&bytes)
+        .map_err(|error| LoadError::new(&name.value, Some(error.position()), error.message()))?;
+    Ok(bytes)
 }
 
 /// Why a file cannot be read, in the words of no particular system.

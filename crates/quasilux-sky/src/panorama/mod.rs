@@ -65,6 +65,7 @@ impl Panorama {
     /// With the line of the header for other files, pictures that are not twice as wide as high or
     /// wider than 16 384 pixels, and pixels that are cut short.
     pub fn parse(bytes: &[u8]) -> Result<ParsedPanorama, ParseError> {
+        quasilux_text::refuse_web_page(bytes)?;
         let mut warnings = Warnings::default();
         let header = Header::read(bytes, &mut warnings)?;
         let [width, height] = header.size;

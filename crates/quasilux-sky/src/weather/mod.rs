@@ -128,6 +128,7 @@ impl Weather {
     /// # Errors
     /// With the line and the column of what is neither EPW nor WEA.
     pub fn parse(bytes: &[u8]) -> Result<ParsedWeather, ParseError> {
+        quasilux_text::refuse_web_page(bytes)?;
         let mut warnings = Warnings::default();
         let text = decode(bytes, &mut warnings);
         let rows: Vec<Row<'_>> =

@@ -33,6 +33,9 @@ fn obj() {
         "obj",
         &[
             Case::new("empty").file("room.obj", "").says(&["room.obj:", "no triangles"]),
+            Case::new("a web page")
+                .file("room.obj", "\n<html lang=\"en\"><body>v 0 0 0</body></html>\n")
+                .says(&["room.obj:1:1:", "a web page", "raw file"]),
             Case::new("binary junk")
                 .file("room.obj", (0..=255).cycle().take(5000).collect::<Vec<u8>>())
                 .says(&["room.obj:1:", "binary"]),

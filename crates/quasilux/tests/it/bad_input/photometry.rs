@@ -48,6 +48,9 @@ fn luminaire_files() {
                 .replace("lamp.ies", "lamp.xml")
                 .file("lamp.xml", "<!DOCTYPE a [<!ENTITY b \"&b;&b;\">]>\n<a>&b;</a>\n")
                 .says(&["lamp.xml:1:1:", "DOCTYPE"]),
+            Case::new("a web page")
+                .file("lamp.ies", "<!DOCTYPE html>\n<html><body>not found</body></html>\n")
+                .says(&["lamp.ies:1:1:", "a web page", "raw file"]),
             Case::new("neither")
                 .replace("lamp.ies", "lamp.png")
                 .says(&["project.toml:8:14:", ".ies"]),
