@@ -105,7 +105,8 @@ fn rooms_that_only_look_odd_are_right() {
 const SKY: &str = "[sky]\nmodel = \"cie\"\ntype = 1\nhorizontal_illuminance_lx = 10000\n";
 const ON_THE_ROOF: &str = "[[sensors]]\nname = \"roof\"\nkind = \"points\"\n\
     points = [[2, 2, 3.1], [4, 2, 3.1]]\nnormals = [[0, 0, 1], [1, 0, 0.1]]\n\
-    [[cameras]]\nname = \"c\"\nposition = [2, 2, 20]\ntarget = [3, 2, 3]\nvertical_fov_deg = 50\nresolution = [9, 6]\n";
+    [[cameras]]\nname = \"c\"\nposition = [2, 2, 20]\ntarget = [3, 2, 3]\n\
+    vertical_fov_deg = 50\nresolution = [9, 6]\n";
 
 /// A flat model in the open, seen by points above it.
 fn square() -> Case {
