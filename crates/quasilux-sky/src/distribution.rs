@@ -14,8 +14,6 @@ pub struct Distribution {
     form: Form,
     /// Towards the sun, which may be below the horizon.
     sun: [f64; 3],
-    /// [`Perez::is_held`].
-    is_held: bool,
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -24,6 +22,8 @@ enum Form {
     /// 1 + 2 sin(altitude).
     TraditionalOvercast,
     Gradation(Gradation),
+    /// A gradation with [`Perez::is_held`].
+    Held(Gradation),
     /// In cd/m2.
     Panorama(Arc<Panorama>),
 }
@@ -32,28 +32,28 @@ impl Distribution {
     /// The same in all directions.
     #[must_use]
     pub fn uniform() -> Self {
-        Self { form: Form::Uniform, sun: [0.0, 0.0, 1.0], is_held: false }
+        Self { form: Form::Uniform, sun: [0.0, 0.0, 1.0] }
     }
 
     /// A CIE sky with the sun at this point; on types 1, 3, 5 and 16 it has no influence.
     #[must_use]
     pub fn cie(cie: CieType, sun: SkyPoint) -> Self {
         let form = cie.gradation().map_or(Form::TraditionalOvercast, Form::Gradation);
-        Self { form, sun: sun.to_direction(), is_held: false }
+        Self { form, sun: sun.to_direction() }
     }
 
     /// The sky of a measured hour.
     #[must_use]
     pub fn perez(perez: &Perez) -> Self {
-        let form = Form::Gradation(perez.gradation());
-        Self { form, sun: perez.sun().to_direction(), is_held: perez.is_held() }
+        let form = if perez.is_held() { Form::Held } else { Form::Gradation };
+        Self { form: form(perez.gradation()), sun: perez.sun().to_direction() }
     }
 
     /// The sky of a picture; its relative luminances are those of the picture in cd/m2.
     #[must_use]
     pub fn panorama(panorama: Panorama) -> Self {
         let form = Form::Panorama(Arc::new(panorama));
-        Self { form, sun: [0.0, 0.0, 1.0], is_held: false }
+        Self { form, sun: [0.0, 0.0, 1.0] }
     }
 
     /// The relative luminance in a direction, a unit vector; 0 below the horizon.
@@ -66,19 +66,21 @@ impl Distribution {
         match &self.form {
             Form::Uniform => 1.0,
             Form::TraditionalOvercast => 1.0 + 2.0 * cos_zenith,
-            Form::Gradation(gradation) => gradation.relative(cos_zenith, dot(direction, self.sun)),
+            Form::Gradation(gradation) | Form::Held(gradation) => {
+                gradation.relative(cos_zenith, dot(direction, self.sun))
+            }
             Form::Panorama(panorama) => panorama.luminance_cd_m2(direction),
         }
     }
 
     pub(crate) fn is_held(&self) -> bool {
-        self.is_held
+        matches!(self.form, Form::Held(_))
     }
 
     /// The gradation that it is of.
     pub(crate) fn as_gradation(&self) -> Option<&Gradation> {
         match &self.form {
-            Form::Gradation(gradation) => Some(gradation),
+            Form::Gradation(gradation) | Form::Held(gradation) => Some(gradation),
             _ => None,
         }
     }

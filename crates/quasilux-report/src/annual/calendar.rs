@@ -1,10 +1,7 @@
 //! Which hours of a weather file count for what.
 
-use quasilux_sky::{SkyError, Weather, WeatherHour, WeatherSky};
+use quasilux_sky::{SkyError, Weather, WeatherSky};
 use std::ops::Range;
-
-/// The end of civil twilight: by then the sky has less than a ten-thousandth of a day's light.
-const NIGHT_DEG: f64 = -6.0;
 
 /// The intervals of a weather file.
 #[derive(Clone, Debug)]
@@ -52,7 +49,7 @@ impl Calendar {
         for hour in &weather.hours {
             let sky = weather.sky_of(hour)?;
             let middle_h = hour.seconds / 3600.0;
-            let is_known = hour.light.is_some() || is_night(weather, hour)?;
+            let is_known = hour.light.is_some() || weather.is_night(hour)?;
             let has_people = occupied_h.contains(&middle_h);
             unknown_occupied += usize::from(has_people && !is_known);
             intervals.push(Interval {
@@ -90,10 +87,4 @@ impl Calendar {
     pub fn count(&self, is_of_kind: impl Fn(&Interval) -> bool) -> usize {
         self.intervals.iter().filter(|interval| is_of_kind(interval)).count()
     }
-}
-
-/// Whether the sky is dark whatever the weather.
-fn is_night(weather: &Weather, hour: &WeatherHour) -> Result<bool, SkyError> {
-    let sun = weather.site.sun_at(&weather.time_of(hour)?)?;
-    Ok(sun.altitude_deg < NIGHT_DEG)
 }

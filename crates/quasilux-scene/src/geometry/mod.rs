@@ -71,6 +71,9 @@ pub(crate) fn read(
             }
         };
         let bytes = read_file(project, file, files, FileKind::Geometry)?;
+        quasilux_text::refuse_web_page(&bytes).map_err(|error| {
+            LoadError::new(&file.value, Some(error.position()), error.message())
+        })?;
         builder.start_file(&file.value);
         if is_obj {
             obj::read(&bytes, files, &mut builder, warnings)?;
@@ -101,16 +104,13 @@ pub(crate) fn read_file(
     files: &dyn Files,
     kind: FileKind,
 ) -> Result<Vec<u8>, LoadError> {
-    let bytes = reading::read(files, &name.value, kind).map_err(|error| {
+    reading::read(files, &name.value, kind).map_err(|error| {
         let reason = reason(&error);
         project.error(
             name.place,
             format!("cannot read \"{}\": {reason}; expected a readable file", name.value),
         )
-    })?;
-    quasilux_text::refuse_web_page(&bytes)
-        .map_err(|error| LoadError::new(&name.value, Some(error.position()), error.message()))?;
-    Ok(bytes)
+    })
 }
 
 /// Why a file cannot be read, in the words of no particular system.

@@ -6,7 +6,9 @@ use crate::annual::{Blinds, BlindsControl};
 use crate::geometry::read_file;
 use crate::project::{BlindsEntry, BlindsRule, Project};
 use crate::{FileKind, Files, LoadError, Spanned, Warning};
-use quasilux_text::{ParseError, Position, TextWarning, Warnings, decode, lines, quoted};
+use quasilux_text::{
+    ParseError, Position, TextWarning, Warnings, decode, lines, quoted, refuse_web_page,
+};
 
 /// `None` where a project has none. `intervals` are those of its weather file.
 pub(super) fn hang(
@@ -48,6 +50,7 @@ fn with_blinds(project: &Project, entry: &BlindsEntry) -> Project {
 /// The column of a CSV file with a line of names and one for each interval: 1 while they are
 /// closed, 0 while they are open.
 fn read_schedule(bytes: &[u8], column: &str, intervals: usize) -> Result<Vec<bool>, ParseError> {
+    refuse_web_page(bytes)?;
     let mut warnings: Warnings<TextWarning> = Warnings::default();
     let text = decode(bytes, &mut warnings);
     let mut rows = (1..).zip(lines(&text)).filter(|(_, row)| !row.trim().is_empty());

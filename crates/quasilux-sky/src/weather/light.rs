@@ -1,5 +1,6 @@
 //! The sky and the sun of an interval of a weather file.
 
+use super::possible::Possible;
 use super::{Weather, WeatherHour, WeatherLight, WeatherUnits};
 use crate::distribution::Distribution;
 use crate::error::SkyError;
@@ -77,6 +78,14 @@ impl Weather {
     /// For dates that no year has.
     pub fn time_of(&self, hour: &WeatherHour) -> Result<LocalTime, SkyError> {
         LocalTime::new(self.year, hour.month, hour.day, hour.seconds)
+    }
+
+    /// Whether the sky is dark in the middle of an interval, whatever the weather.
+    ///
+    /// # Errors
+    /// For dates that no year has.
+    pub fn is_night(&self, hour: &WeatherHour) -> Result<bool, SkyError> {
+        Ok(Possible::of_middle(self, hour)?.is_night())
     }
 
     fn irradiance(&self, light: WeatherLight, sun: SkyPoint) -> Irradiance {

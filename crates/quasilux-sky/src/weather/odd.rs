@@ -6,8 +6,6 @@ use quasilux_text::{Position, Warnings};
 
 /// The hours that clocks of time zones and summer time are off at most, in the west of China.
 const MAX_OFF_H: f64 = 3.75;
-/// By then the sky has less than a ten-thousandth of the light of a day.
-const NIGHT_DEG: f64 = -6.0;
 /// Less is the noise of instruments, in W/m2 and in lx.
 const NOISE_W_M2: f64 = 10.0;
 const NOISE_LX: f64 = 1000.0;
@@ -35,9 +33,8 @@ pub(super) fn tell(
         let Some(light) = hour.light.filter(|light| light.direct + light.diffuse > 0.0) else {
             continue;
         };
-        let is_odd = |possible: &Possible| {
-            !possible.holds(light, weather.units) || possible.altitude_deg < NIGHT_DEG
-        };
+        let is_odd =
+            |possible: &Possible| !possible.holds(light, weather.units) || possible.is_night();
         let odd = Possible::of_middle(weather, hour).ok().filter(is_odd);
         let odd = odd.and_then(|_| Possible::of_all(weather, hour).ok());
         if let Some(possible) = odd {
@@ -73,7 +70,7 @@ fn tell_of_light(
     let WeatherLight { direct, diffuse } = light;
     let found =
         format!("{direct} {unit} of the sun and {diffuse} {unit} of the sky {}", said(hour));
-    if altitude_deg < NIGHT_DEG && direct + diffuse > noise {
+    if possible.is_night() && direct + diffuse > noise {
         let expected = format!(
             "none with the sun {:.0} degrees below the horizon by the clock and the place of the \
              file (read as it is)",

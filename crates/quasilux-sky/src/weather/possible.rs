@@ -10,6 +10,9 @@ use libm::{pow, sin};
 /// More than the efficacy of any daylight, in lm/W.
 const MAX_LM_W: f64 = 160.0;
 
+/// The end of civil twilight: by then the sky has less than a ten-thousandth of a day's light.
+const NIGHT_DEG: f64 = -6.0;
+
 /// Sun and limits of an interval.
 pub(super) struct Possible {
     /// Of the sun.
@@ -42,6 +45,11 @@ impl Possible {
             altitude_deg: weather.site.sun_at(&time)?.altitude_deg,
             above_the_air_w_m2: SOLAR_CONSTANT_W_M2 * eccentricity(time.day_of_year()),
         })
+    }
+
+    /// Whether the sky is dark whatever the weather.
+    pub(super) fn is_night(&self) -> bool {
+        self.altitude_deg < NIGHT_DEG
     }
 
     /// The sine of the sun's altitude, not below 0.
