@@ -1,18 +1,17 @@
 //! Pictures, from their first pass to their last.
 //!
-//! A picture comes after the sensors, in passes with more and more paths a pixel, each from scratch
-//! (`run/pixels.rs`). It is done when it is known well enough
-//! ([`CameraEstimates::relative_half_width`]), or when it has the wanted number of paths; only
-//! complete passes are looked at. The number of paths of a pass follows from the half-widths of the
-//! one before, that of the first from a sample of the picture's blocks, so most of the work is in
-//! the last. When the observer stops a pass, the one before is the picture; before the first there
-//! is none.
+//! A picture comes after the sensors, in passes, each from scratch (`run/pixels.rs`). It is done
+//! when it is known well enough ([`CameraEstimates::relative_half_width`]), or when it has the
+//! wanted number of paths; only complete passes are looked at. The first has one path a pixel in
+//! each replicate and tells where more are needed (`run/pass.rs`), so most of the work is in the
+//! last. When the observer stops a pass, the one before is the picture; before the first there is
+//! none.
 
 use crate::context::Context;
 use crate::cutoff;
 use crate::path::sections::WorkCounts;
-use crate::run::pixels::{Darkroom, Exposure};
-use crate::run::raster::Part;
+use crate::run::pass::Pass;
+use crate::run::pixels::{Darkroom, Exposure, Step};
 use crate::settings::Settings;
 use crate::spectrum::Spectrum;
 use crate::stats::estimates::Estimates;
@@ -31,16 +30,10 @@ const MIN_SAMPLES: u64 = 4;
 const MIN_SAMPLES_OF_BIDIRECTIONAL: u64 = 2;
 /// Light of photons is told above this part of the tolerance.
 const BLURRED: f64 = 0.1;
-/// A picture of fewer blocks has no sample.
-const MIN_BLOCKS: usize = 64;
-/// Paths of a first pass at most, so that there soon is a picture.
-const MAX_FIRST: u64 = 4;
-/// From one pass to the next the number of paths grows by this factor at most.
+/// Where half-widths are so many times the tolerance, one pass does not know what another needs.
+const FAR: f64 = 8.0;
+/// Where nobody knows what is needed, the number of paths grows by this factor from pass to pass.
 const GROWTH: u64 = 16;
-/// Half-widths shrink at least like N to this power.
-const SLOPE: f64 = -0.5;
-/// A pass is to be enough with some room to spare, since half-widths vary.
-const MARGIN: f64 = 1.1;
 /// Photons for each path of a pixel that look for light which paths cannot find.
 const CAUSTIC_PHOTONS: u64 = 1 << 12;
 
@@ -58,11 +51,11 @@ pub(crate) fn add_pictures<S: Spectrum>(
         let replicates = settings.effective_replicates() as usize;
         let mut taken = Exposure::nothing(wish.rel_tol, replicates);
         if let Some(darkroom) = Darkroom::new(context, settings, number as u32, camera, watch) {
-            let mut sitting = Sitting { number, wish, darkroom };
+            let mut sitting = Sitting { number, wish, darkroom, traced: 0.0 };
             taken = sitting.take(taken, &mut work, watch);
             taken.invalid += sitting.darkroom.invalid_photons();
         }
-        let Exposure { figures, invalid } = taken;
+        let Exposure { figures, invalid, .. } = taken;
         estimates.warnings.extend(wish.complaint(camera, &figures));
         estimates.warnings.extend(wish.blur(camera, &figures));
         estimates.invalid_contributions += invalid;
@@ -121,36 +114,49 @@ impl Wish {
         }
     }
 
-    /// Paths of the first pass.
-    fn first(&self) -> u64 {
-        if self.all_or_nothing { self.most } else { 1 }
+    /// The first pass.
+    fn first(&self) -> Pass {
+        Pass::of_all(if self.all_or_nothing { self.most } else { 1 })
     }
 
-    /// Paths of the pass that follows a complete one; `None` where that is the last.
-    fn next(&self, figures: &CameraEstimates) -> Option<u64> {
-        if self.is_done(figures) || figures.samples >= self.most {
+    /// The pass that follows a complete one; `None` where that is the last.
+    fn next(&self, pass: &Pass, taken: &Exposure) -> Option<Pass> {
+        let figures = &taken.figures;
+        let is_last = self.rel_tol.is_some_and(|rel_tol| pass.is_up_to(rel_tol));
+        if figures.is_done || (is_last && taken.is_limited()) || pass.least >= self.most {
             return None;
         }
-        let most = figures.samples.saturating_mul(GROWTH).min(self.most);
-        let fewest = (2 * figures.samples).max(self.min_samples).min(most);
-        Some(self.expected(figures).unwrap_or(most).clamp(fewest, most))
+        let Some((rel_tol, known)) = self.rel_tol.zip(figures.relative_half_width()) else {
+            return Some(Pass::of_all(pass.least.saturating_mul(GROWTH).min(self.most)));
+        };
+        // Where much is left to do, a pass on the way there tells more of it.
+        let is_far = known > FAR * rel_tol;
+        let rel_tol = if is_far { (known * rel_tol).sqrt() } else { rel_tol };
+        let least = (2 * pass.least).max(self.min_samples).min(self.most);
+        let limits = pass.followed_by(least, self.most);
+        Some(limits.up_to(rel_tol, figures.mean_cd_m2(), &taken.blocks))
     }
 
-    /// Paths that should do, if nothing limits them.
-    fn expected(&self, figures: &CameraEstimates) -> Option<u64> {
-        let excess = figures.relative_half_width()? / self.rel_tol?;
-        Some(
-            even((MARGIN * figures.samples as f64 * libm::pow(excess, 1.0 / -SLOPE)).ceil() as u64),
-        )
+    /// Paths of a pixel in the passes after this one, which follows what is known; `None` where
+    /// nobody knows.
+    fn later(&self, pass: &Pass, before: &CameraEstimates) -> Option<f64> {
+        let Some(rel_tol) = self.rel_tol else {
+            let next = |least: &u64| (*least < self.most).then(|| least.saturating_mul(GROWTH));
+            let later = std::iter::successors(Some(pass.least), next).skip(1);
+            return Some(later.map(|least| least.min(self.most) as f64).sum());
+        };
+        if pass.is_up_to(rel_tol) {
+            return Some(0.0);
+        }
+        let excess = before.relative_half_width()? / rel_tol;
+        Some(before.samples as f64 * excess * excess)
     }
 
     /// That light is blurred which only photons found, where that is more than a tenth of what may
     /// be off.
     fn blur(&self, camera: &Camera, figures: &CameraEstimates) -> Option<String> {
         let radius_m = figures.disc_radius_m?;
-        let means = &figures.replicate_mean_cd_m2;
-        let mean_cd_m2 = means.iter().sum::<f64>() / means.len() as f64;
-        let share = figures.merged_mean_cd_m2 / mean_cd_m2;
+        let share = figures.merged_mean_cd_m2 / figures.mean_cd_m2();
         let told = BLURRED * self.rel_tol.unwrap_or(REL_TOL);
         (share > told).then(|| {
             format!(
@@ -190,18 +196,13 @@ impl Wish {
     }
 }
 
-/// The number or the next one that has no more than two binary digits other than 0: points of nets
-/// are balanced in such numbers.
-fn even(number: u64) -> u64 {
-    let step = (number.max(1).ilog2()).saturating_sub(1);
-    number.div_ceil(1 << step) << step
-}
-
 /// A picture while it is taken.
 struct Sitting<'a, S> {
     number: usize,
     wish: Wish,
     darkroom: Darkroom<'a, S>,
+    /// Paths of a pixel in a replicate in the passes so far, on average.
+    traced: f64,
 }
 
 impl<S: Spectrum> Sitting<'_, S> {
@@ -212,59 +213,42 @@ impl<S: Spectrum> Sitting<'_, S> {
         work: &mut WorkCounts,
         watch: &mut Watch<'_>,
     ) -> Exposure {
-        let mut next = Some(self.first(&taken.figures, work, watch));
-        while let Some(samples) = next {
-            let Some(exposure) = self.pass(samples, &taken.figures, work, watch) else { break };
+        let mut next = Some(self.wish.first());
+        while let Some(pass) = next {
+            let Some(exposure) = self.pass(&pass, &taken, work, watch) else { break };
             taken = exposure;
             taken.figures.is_done = self.wish.is_done(&taken.figures);
-            next = self.wish.next(&taken.figures);
             taken.figures.rel_tol = self.wish.rel_tol;
+            next = self.wish.next(&pass, &taken);
         }
         taken
-    }
-
-    /// Paths of the first pass: those that a sample of the picture says are enough, if few are.
-    fn first(&self, before: &CameraEstimates, work: &mut WorkCounts, watch: &mut Watch<'_>) -> u64 {
-        let Self { wish, darkroom, .. } = self;
-        let first = wish.first();
-        if wish.rel_tol.is_none() || darkroom.block_count() < MIN_BLOCKS {
-            return first;
-        }
-        let at = self.progress(first, before);
-        let sample = darkroom.expose(first, Part::Sample, work, |paths, rays, _| {
-            watch.tick_picture(paths, rays, at, 0.0)
-        });
-        let expected = sample.and_then(|sample| wish.expected(&sample.figures));
-        expected
-            .map_or(first, |expected| expected.max(wish.min_samples).min(MAX_FIRST).min(wish.most))
-    }
-
-    fn progress(&self, samples: u64, before: &CameraEstimates) -> PictureProgress {
-        PictureProgress {
-            camera: self.number,
-            samples,
-            complete_samples: before.samples,
-            relative_half_width: before.relative_half_width(),
-            rel_tol: self.wish.rel_tol,
-        }
     }
 
     /// One pass after another one; `None` where the observer stopped it.
     fn pass(
         &mut self,
-        samples: u64,
-        before: &CameraEstimates,
+        pass: &Pass,
+        before: &Exposure,
         work: &mut WorkCounts,
         watch: &mut Watch<'_>,
     ) -> Option<Exposure> {
-        let at = self.progress(samples, before);
-        // Earlier passes have taken as many again as a share of the last.
-        let expected = self.wish.expected(before).unwrap_or(self.wish.most);
-        let all = expected.clamp(samples, self.wish.most.max(samples)) as f64;
+        let expected = self.darkroom.expected(pass);
+        let at = PictureProgress {
+            camera: self.number,
+            samples: expected.round() as u64,
+            complete_samples: before.figures.samples,
+            relative_half_width: before.figures.relative_half_width(),
+            rel_tol: self.wish.rel_tol,
+        };
+        let later = self.wish.later(pass, &before.figures);
         watch.begin_pass(at);
-        self.darkroom.trace_caustics(samples * CAUSTIC_PHOTONS, work, watch)?;
-        self.darkroom.expose(samples, Part::All, work, |paths, rays, share| {
-            watch.tick_picture(paths, rays, at, samples as f64 * share / all)
+        let photons = expected.ceil() as u64 * CAUSTIC_PHOTONS;
+        self.darkroom.trace_caustics(photons, work, watch)?;
+        let traced = self.traced;
+        self.darkroom.expose(pass, work, |Step { paths, rays, done, left }| {
+            self.traced = traced + done;
+            let whole = later.map(|later| self.traced + left + later);
+            watch.tick_picture(paths, rays, at, whole.map(|whole| self.traced / whole))
         })
     }
 }

@@ -17,12 +17,14 @@ use crate::path::sections::WorkCounts;
 use crate::path::start::{Measurement, Start};
 use crate::path::wave::{PathWave, WAVE};
 use crate::photon::caustics::CausticMap;
-use crate::run::raster::{Part, PixelBlock, Raster};
+use crate::run::pass::{KnownBlock, Pass, square_of};
+use crate::run::pixel_sums::{BlockSums, Developer, PictureSums, PixelSums};
+use crate::run::raster::{PixelBlock, Raster};
 use crate::settings::Settings;
 use crate::spectrum::Spectrum;
 use crate::stats::interval::{Interval, t_quantile_for};
 use crate::stats::picture::{CameraEstimates, Pixel};
-use crate::stats::tally::{Quantum, Sum};
+use crate::stats::tally::Quantum;
 use crate::stats::watch::Watch;
 use quasilux_scene::Camera;
 use rayon::prelude::*;
@@ -36,9 +38,6 @@ const OF_A_THREAD: usize = 2;
 const REGION: usize = 240;
 /// Indices between two words to the observer: half a second of a processor with two cores.
 pub(super) const INDICES: u64 = 2;
-/// Channels of a picture.
-const RGB: usize = 3;
-
 /// Where the picture of one camera is made.
 pub(super) struct Darkroom<'a, S> {
     context: &'a Context<'a, S>,
@@ -70,10 +69,31 @@ enum Light<'d, S> {
 pub(super) struct Exposure {
     pub(super) figures: CameraEstimates,
     pub(super) invalid: u64,
+    pub(super) blocks: Vec<KnownBlock>,
+}
+
+/// Work at a pass.
+pub(super) struct Step {
+    pub(super) paths: u64,
+    pub(super) rays: u64,
+    /// Paths of a pixel in a replicate so far, on average over the picture.
+    pub(super) done: f64,
+    /// Those probably to come.
+    pub(super) left: f64,
 }
 
 /// A block while it is traced.
 struct Tray {
+    /// Among those of the picture.
+    number: usize,
+    /// Paths of each pixel in each replicate.
+    samples: u64,
+    /// Those probably to come.
+    expected: f64,
+    /// Whether it is known well enough.
+    is_known: bool,
+    /// The part of the picture that it is.
+    share: f64,
     /// Numbers of its pixels in the picture.
     places: Vec<usize>,
     /// How often light vertices are joined to what it sees.
@@ -81,64 +101,40 @@ struct Tray {
     found: BlockSums,
 }
 
-/// What the paths of a block found.
-struct BlockSums {
-    /// Of pixel p in replicate r at `p * replicates + r`.
-    sums: Vec<PixelSums>,
-    /// Of each pixel, the smallest disc that photons count on, in m^2; `None` where nothing is
-    /// seen.
-    least_disc_m2: Vec<Option<f64>>,
+/// How far a pass is.
+struct Course<'t> {
+    tick: &'t mut dyn FnMut(Step) -> bool,
+    goes_on: bool,
+    /// As in [`Step`].
+    done: f64,
+    left: f64,
 }
 
-/// What the paths of one pixel in one replicate found, on average.
-#[derive(Clone, Copy, Default)]
-struct PixelSums {
-    channels: [Sum; RGB],
-    /// The part of their luminance that photons brought.
-    merged: Sum,
-    /// Paths that came to a surface that reflects.
-    reflected: u64,
-}
-
-/// Takes what paths of one replicate find.
-struct Developer<'t> {
-    found: &'t mut BlockSums,
-    replicate: u32,
-    replicates: u32,
-    /// What one path of a pixel counts.
-    share: f64,
-    quantum: Quantum,
-}
-
-impl Developer<'_> {
-    /// Of a pixel of the block.
-    fn sums(&mut self, pixel: usize) -> &mut PixelSums {
-        &mut self.found.sums[pixel * self.replicates as usize + self.replicate as usize]
-    }
-}
-
-impl<S: Spectrum> Sink<S> for Developer<'_> {
-    fn add(&mut self, pixel: usize, _bounces: u32, light: S) {
-        let (share, quantum) = (self.share, self.quantum);
-        self.sums(pixel).add(light * share, quantum);
+impl Course<'_> {
+    /// Notes work at so many paths of each pixel of some blocks.
+    fn step(&mut self, cost: &WorkCounts, trays: &mut [&mut Tray], paths: f64) {
+        for tray in trays {
+            self.done += tray.share * paths;
+            self.expect_less(tray, paths);
+        }
+        let (done, left) = (self.done, self.left);
+        self.goes_on = (self.tick)(Step { paths: cost.paths, rays: cost.rays, done, left });
     }
 
-    fn add_merged(&mut self, pixel: usize, bounces: u32, light: S) {
-        self.add(pixel, bounces, light);
-        let (share, quantum) = (self.share, self.quantum);
-        self.sums(pixel).merged.add(light.luminance() * share, quantum);
-    }
-}
-
-impl<S: Spectrum> PixelSink<S> for Developer<'_> {
-    fn arrive(&mut self, pixel: usize, disc_m2: f64) {
-        self.sums(pixel).reflected += 1;
-        let least_m2 = &mut self.found.least_disc_m2[pixel];
-        *least_m2 = Some(least_m2.map_or(disc_m2, |least_m2| least_m2.min(disc_m2)));
+    /// Expects so many paths less of each pixel of a block, none if fewer were expected.
+    fn expect_less(&mut self, tray: &mut Tray, paths: f64) {
+        let less = paths.min(tray.expected);
+        tray.expected -= less;
+        self.left -= tray.share * less;
     }
 }
 
 impl Exposure {
+    /// Whether blocks had to end before they were known well enough.
+    pub(super) fn is_limited(&self) -> bool {
+        self.blocks.iter().any(|block| !block.is_enough)
+    }
+
     /// No picture.
     pub(super) fn nothing(rel_tol: Option<f64>, replicates: usize) -> Self {
         let figures = CameraEstimates {
@@ -151,7 +147,7 @@ impl Exposure {
             rel_tol,
             is_done: false,
         };
-        Self { figures, invalid: 0 }
+        Self { figures, invalid: 0, blocks: Vec::new() }
     }
 }
 
@@ -205,79 +201,123 @@ impl<'a, S: Spectrum> Darkroom<'a, S> {
         Some(())
     }
 
-    /// One pass with so many paths of each pixel in each replicate over the whole picture, or over
-    /// a part. `tick` is told of paths, rays and the share of the pass that is over, and says
-    /// whether to go on; `None` where it does not.
-    pub(super) fn expose(
-        &self,
-        samples: u64,
-        part: Part,
-        work: &mut WorkCounts,
-        mut tick: impl FnMut(u64, u64, f64) -> bool,
-    ) -> Option<Exposure> {
-        let blocks = self.raster.blocks(part);
-        let mut pixels = vec![Pixel::default(); self.raster.pixels()];
-        let mut sums = vec![PixelSums::default(); self.replicates as usize];
-        let together = TOGETHER.max(OF_A_THREAD * rayon::current_num_threads());
-        let mut done = 0.0;
-        for region in blocks.chunks(REGION) {
-            let mut trays: Vec<Tray> = region.par_iter().map(|it| self.tray(*it)).collect();
-            let mut indices = 0..INDICES.min(samples);
-            while !indices.is_empty() {
-                let light = self.light(indices.clone(), work);
-                for trays in trays.chunks_mut(together) {
-                    done += (indices.end - indices.start) as f64 * trays.len() as f64;
-                    let cost = self.trace(trays, &light, indices.clone(), samples);
-                    let (paths, rays) = (cost.paths, cost.rays);
-                    *work += cost;
-                    let all = samples as f64 * blocks.len() as f64;
-                    if !tick(paths, rays, done / all) && done < all {
-                        return None;
-                    }
-                }
-                indices = indices.end..(indices.end + INDICES).min(samples);
-            }
-            for Tray { places, found, .. } in trays {
-                let own = found.sums.chunks_exact(self.replicates as usize);
-                for (own, (place, disc_m2)) in own.zip(places.iter().zip(found.least_disc_m2)) {
-                    sums.iter_mut().zip(own).for_each(|(sum, own)| sum.merge(*own));
-                    pixels[*place] = self.pixel(own, samples, disc_m2.unwrap_or(0.0));
-                }
-            }
-        }
-        if let Part::Sample = part {
-            let places = blocks.iter().flat_map(|&block| self.raster.places(block));
-            pixels = places.map(|place| pixels[place]).collect();
-        }
-        let invalid = sums.iter().flat_map(|sums| sums.channels).map(|sum| sum.invalid).sum();
-        Some(Exposure { figures: self.figures(pixels, &sums, samples), invalid })
+    /// Paths of a pixel that a pass probably takes, on average.
+    pub(super) fn expected(&self, pass: &Pass) -> f64 {
+        let blocks = self.raster.blocks();
+        let of_block = |(it, block): (usize, &PixelBlock)| {
+            block.pixels() as f64 * pass.expected(it) / self.raster.pixels() as f64
+        };
+        blocks.iter().enumerate().map(of_block).sum()
     }
 
-    /// What is known of a picture; the sums are those of all its pixels in each replicate.
-    fn figures(&self, pixels: Vec<Pixel>, sums: &[PixelSums], samples: u64) -> CameraEstimates {
+    /// One pass over the picture. `tick` is told how far it is, and says whether to go on; `None`
+    /// where there was more to do.
+    pub(super) fn expose(
+        &self,
+        pass: &Pass,
+        work: &mut WorkCounts,
+        mut tick: impl FnMut(Step) -> bool,
+    ) -> Option<Exposure> {
+        let blocks = self.raster.blocks();
+        let mut course =
+            Course { tick: &mut tick, goes_on: true, done: 0.0, left: self.expected(pass) };
+        let mut pixels = vec![Pixel::default(); self.raster.pixels()];
+        let mut sums = PictureSums::new(self.replicates);
+        let mut known = Vec::with_capacity(blocks.len());
+        for (region, first) in blocks.chunks(REGION).zip((0..).step_by(REGION)) {
+            let tray = |(it, block): (usize, &PixelBlock)| self.tray(first + it, *block, pass);
+            let mut trays: Vec<Tray> = region.par_iter().enumerate().map(tray).collect();
+            self.expose_region(pass, &mut trays, work, &mut course)?;
+            for tray in &trays {
+                for (place, pixel) in tray.places.iter().zip(self.pixels(tray)) {
+                    pixels[*place] = pixel;
+                }
+                sums.add::<S>(&tray.found, tray.samples, self.quantum);
+                known.push(KnownBlock {
+                    pixels: tray.places.len(),
+                    samples: tray.samples,
+                    is_enough: tray.is_known,
+                    square: 0.0,
+                });
+            }
+        }
+        Some(self.exposure(pixels, sums, known))
+    }
+
+    /// Traces blocks that the same light serves, each until it is known well enough; `None` where
+    /// they were stopped.
+    fn expose_region(
+        &self,
+        pass: &Pass,
+        trays: &mut [Tray],
+        work: &mut WorkCounts,
+        course: &mut Course<'_>,
+    ) -> Option<()> {
+        let together = TOGETHER.max(OF_A_THREAD * rayon::current_num_threads());
+        let mut open: Vec<&mut Tray> = trays.iter_mut().collect();
+        let mut samples = 0;
+        while !open.is_empty() {
+            let next = (samples + INDICES).min(pass.most);
+            let indices = pass.first + samples..pass.first + next;
+            let light = self.light(indices.clone(), work);
+            for trays in open.chunks_mut(together) {
+                if !course.goes_on {
+                    return None;
+                }
+                let cost = self.trace(trays, &light, indices.clone());
+                course.step(&cost, trays, (next - samples) as f64);
+                *work += cost;
+            }
+            samples = next;
+            if pass.is_look(samples) {
+                open.par_iter_mut().for_each(|tray| {
+                    tray.is_known = pass.is_known(tray.number, &self.pixels(tray));
+                });
+            }
+            open.retain_mut(|tray| {
+                let goes_on = !tray.is_known && samples < pass.most;
+                if !goes_on {
+                    course.expect_less(tray, f64::INFINITY);
+                }
+                goes_on
+            });
+        }
+        Some(())
+    }
+
+    /// What is known of a picture; finds the squares of the blocks.
+    fn exposure(
+        &self,
+        pixels: Vec<Pixel>,
+        sums: PictureSums,
+        mut blocks: Vec<KnownBlock>,
+    ) -> Exposure {
         let n = pixels.len() as f64;
-        let merged = sums.iter().map(|sums| self.quantum.value(sums.merged));
-        CameraEstimates {
-            unseen_mean_cd_m2: self.unseen_of_mean(&pixels, samples),
-            merged_mean_cd_m2: merged.sum::<f64>() / (n * sums.len() as f64),
+        let PictureSums { cd_m2, merged_cd_m2, invalid } = sums;
+        let least = blocks.iter().map(|it| it.samples).min().unwrap_or(0);
+        let paths: f64 = blocks.iter().map(|it| it.samples as f64 * it.pixels as f64).sum();
+        let figures = CameraEstimates {
+            unseen_mean_cd_m2: self.unseen_of_mean(&pixels, least),
+            merged_mean_cd_m2: merged_cd_m2 / (n * f64::from(self.replicates)),
             disc_radius_m: match &self.tracer {
                 Tracer::Paths(_) => None,
                 Tracer::Bidirectional(tracer) => tracer.disc_radius_m(),
             },
             pixels: pixels.into(),
-            replicate_mean_cd_m2: sums.iter().map(|it| self.mean(it).luminance() / n).collect(),
-            samples,
+            replicate_mean_cd_m2: cd_m2.into_iter().map(|sum| sum / n).collect(),
+            samples: (paths / n).round() as u64,
             rel_tol: None,
             is_done: false,
+        };
+        let mean_cd_m2 = figures.mean_cd_m2();
+        for (known, block) in blocks.iter_mut().zip(self.raster.blocks()) {
+            let own = self.raster.places(block).map(|place| &figures.pixels[place]);
+            known.square = square_of(own, mean_cd_m2);
         }
+        Exposure { figures, invalid, blocks }
     }
 
-    /// How many blocks a picture has.
-    pub(super) fn block_count(&self) -> usize {
-        self.raster.blocks(Part::All).len()
-    }
-
-    fn tray(&self, block: PixelBlock) -> Tray {
+    fn tray(&self, number: usize, block: PixelBlock, pass: &Pass) -> Tray {
         let places: Vec<usize> = self.raster.places(block).collect();
         let per_sure_m2 = match &self.tracer {
             Tracer::Paths(_) => 0.0,
@@ -292,7 +332,16 @@ impl<'a, S: Spectrum> Darkroom<'a, S> {
             sums: vec![PixelSums::default(); count * self.replicates as usize],
             least_disc_m2: vec![None; count],
         };
-        Tray { places, per_sure_m2, found }
+        Tray {
+            number,
+            samples: 0,
+            expected: pass.expected(number),
+            is_known: false,
+            share: count as f64 / self.raster.pixels() as f64,
+            places,
+            per_sure_m2,
+            found,
+        }
     }
 
     /// What serves all pixels with these indices.
@@ -308,23 +357,22 @@ impl<'a, S: Spectrum> Darkroom<'a, S> {
         Light::Subpaths(tracer, light)
     }
 
-    /// Traces paths of the pixels of some blocks in all replicates: these of so many.
+    /// Traces the paths of the pixels of some blocks with these indices, in all replicates.
     fn trace(
         &self,
-        trays: &mut [Tray],
+        trays: &mut [&mut Tray],
         light: &Light<'_, S>,
         indices: Range<u64>,
-        samples: u64,
     ) -> WorkCounts {
-        let of_tray = |wave: &mut PathWave<S>, tray: &mut Tray| {
+        let of_tray = |wave: &mut PathWave<S>, tray: &mut &mut Tray| {
             let mut work = WorkCounts::default();
-            let Tray { places, per_sure_m2, found } = tray;
+            let Tray { samples, places, per_sure_m2, found, .. } = &mut **tray;
+            *samples += indices.end - indices.start;
             for replicate in 0..self.replicates {
                 let sink = &mut Developer {
                     found,
                     replicate,
                     replicates: self.replicates,
-                    share: 1.0 / samples as f64,
                     quantum: self.quantum,
                 };
                 work += match light {
@@ -389,9 +437,16 @@ impl<'a, S: Spectrum> Darkroom<'a, S> {
         work
     }
 
+    /// What is known of the pixels of a block.
+    fn pixels(&self, tray: &Tray) -> Vec<Pixel> {
+        let BlockSums { sums, least_disc_m2 } = &tray.found;
+        let own = sums.chunks_exact(self.replicates as usize).zip(least_disc_m2);
+        own.map(|(own, disc_m2)| self.pixel(own, tray.samples, disc_m2.unwrap_or(0.0))).collect()
+    }
+
     /// What the replicates say together.
     fn pixel(&self, own: &[PixelSums], samples: u64, disc_m2: f64) -> Pixel {
-        let means = own.iter().map(|sums| self.mean(sums));
+        let means = own.iter().map(|sums| sums.mean::<S>(samples, self.quantum));
         let share = 1.0 / own.len() as f64;
         let mean = means.clone().fold(S::black(), |sum, mean| sum + mean) * share;
         let is_dark = own.iter().all(PixelSums::is_zero);
@@ -413,34 +468,13 @@ impl<'a, S: Spectrum> Darkroom<'a, S> {
         }
     }
 
-    /// The bound of the picture's mean: a path of one of m pixels adds an m-th.
+    /// The bound of the picture's mean, where no pixel has fewer paths: a path of one of m pixels
+    /// adds an m-th.
     fn unseen_of_mean(&self, pixels: &[Pixel], samples: u64) -> Option<f64> {
         let Tracer::Bidirectional(tracer) = &self.tracer else { return None };
         let m = pixels.len() as f64;
         let of_pixels = pixels.iter().filter_map(|pixel| pixel.unseen_cd_m2).map(f64::from);
         let paths = samples as f64 * f64::from(self.replicates) * m;
         Some(tracer.unseen_cd_m2(paths, 0.0).min(of_pixels.sum::<f64>() / m))
-    }
-
-    fn mean(&self, sums: &PixelSums) -> S {
-        S::from_channels(|channel| self.quantum.value(sums.channels[channel]))
-    }
-}
-
-impl PixelSums {
-    fn add<S: Spectrum>(&mut self, light: S, quantum: Quantum) {
-        for (c, channel) in self.channels.iter_mut().enumerate().take(S::CHANNELS) {
-            channel.add(light.channel(c), quantum);
-        }
-    }
-
-    fn is_zero(&self) -> bool {
-        self.channels.iter().all(Sum::is_zero)
-    }
-
-    fn merge(&mut self, other: Self) {
-        self.channels.iter_mut().zip(other.channels).for_each(|(sum, other)| *sum += other);
-        self.merged += other.merged;
-        self.reflected += other.reflected;
     }
 }

@@ -2,23 +2,12 @@
 
 /// Pixels along the edge of a block.
 const EDGE: usize = 16;
-/// A sample is one block in so many of each row, further right by so many from row to row.
-const SAMPLE_STEP: usize = 8;
-const SAMPLE_SLOPE: usize = 3;
 
 /// The pixels of a picture, row by row from the top left corner.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Raster {
     /// Pixels across and down.
     pub(super) size: [usize; 2],
-}
-
-/// What a pass is over.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Part {
-    All,
-    /// Some blocks, to see what the others will need.
-    Sample,
 }
 
 /// A rectangle of pixels.
@@ -40,7 +29,7 @@ impl Raster {
     }
 
     /// The blocks of the picture, row by row.
-    pub(super) fn blocks(self, part: Part) -> Vec<PixelBlock> {
+    pub(super) fn blocks(self) -> Vec<PixelBlock> {
         let [width, height] = self.size;
         let size = |first: usize, all: usize| (all - first).min(EDGE);
         let firsts =
@@ -49,11 +38,7 @@ impl Raster {
             first: [x, y],
             size: [size(x, width), size(y, height)],
         };
-        let is_in = |[x, y]: &[usize; 2]| match part {
-            Part::All => true,
-            Part::Sample => (x / EDGE + SAMPLE_SLOPE * (y / EDGE)).is_multiple_of(SAMPLE_STEP),
-        };
-        firsts.filter(is_in).map(block).collect()
+        firsts.map(block).collect()
     }
 
     /// Numbers of the pixels of a block.
@@ -65,6 +50,10 @@ impl Raster {
 }
 
 impl PixelBlock {
+    pub(super) fn pixels(self) -> usize {
+        self.size[0] * self.size[1]
+    }
+
     /// The middle of each quarter, in pixels of the picture.
     pub(super) fn quarters(self) -> [[f64; 2]; 4] {
         let place =
@@ -81,7 +70,7 @@ mod tests {
     #[test]
     fn blocks_have_all_pixels_once() {
         let raster = Raster { size: [35, 18] };
-        let blocks = raster.blocks(Part::All);
+        let blocks = raster.blocks();
         let mut places: Vec<usize> = blocks.iter().flat_map(|it| raster.places(*it)).collect();
         places.sort_unstable();
         assert!(places.into_iter().eq(0..35 * 18));

@@ -28,7 +28,7 @@ const ALWAYS: &str = "only workers can fail";
 /// Simulates light in a scene until every sensor point reaches the wanted tolerance, a limit comes
 /// first, or the observer stops it: before the first checkpoint no value is a number then. A point
 /// that is done before the others gets no more samples: what it has then is what it would have,
-/// were this the end. Then takes the pictures of the cameras, with a fixed number of paths a pixel.
+/// were this the end. Then takes the pictures of the cameras.
 ///
 /// The result is a function of scene and settings, whatever the number of threads; an observer that
 /// stops a run only picks which checkpoint is the last. Work is shared by the threads of the rayon

@@ -18,7 +18,7 @@ pub struct CameraEstimates {
     pub merged_mean_cd_m2: f64,
     /// The radius of these discs in m, less beside walls; `None` where no photons count.
     pub disc_radius_m: Option<f64>,
-    /// Paths of each pixel in each replicate; 0 where there are no pixels.
+    /// Paths of each pixel in each replicate, on average; 0 where there are no pixels.
     pub samples: u64,
     /// The half-width that was wanted, as [`Self::relative_half_width`] tells it; `None` where a
     /// number of paths was.
@@ -44,28 +44,49 @@ pub struct Pixel {
 }
 
 impl CameraEstimates {
+    /// The mean luminance of the picture in cd/m^2.
+    #[must_use]
+    pub fn mean_cd_m2(&self) -> f64 {
+        let means = &self.replicate_mean_cd_m2;
+        means.iter().sum::<f64>() / means.len() as f64
+    }
+
     /// Half the width of the interval of a pixel over its luminance, or over the mean luminance of
     /// the picture where that is more: the root of the mean square over all pixels that have one,
     /// so that a few bright spots of which little is known count. `None` where most pixels have
     /// none, or nothing is known.
     #[must_use]
     pub fn relative_half_width(&self) -> Option<f64> {
-        let replicates = self.replicate_mean_cd_m2.len() as f64;
-        let mean_cd_m2 = self.replicate_mean_cd_m2.iter().sum::<f64>() / replicates;
-        let share = |pixel: &Pixel| {
-            let half_width = f64::from(pixel.half_width_cd_m2?);
-            let luminance_cd_m2 = mean_cd_m2.max(pixel.luminance_cd_m2.into());
-            // Black all over, and known to be so.
-            Some(if half_width == 0.0 { 0.0 } else { half_width / luminance_cd_m2 })
-        };
-        let shares = || self.pixels.iter().filter_map(share);
-        let known = shares().count();
-        if known == 0 || 2 * known < self.pixels.len() {
+        let mean_cd_m2 = self.mean_cd_m2();
+        let known = self.pixels.iter().filter_map(|pixel| pixel.relative_half_width(mean_cd_m2));
+        let known: Vec<f64> = known.collect();
+        if known.is_empty() || 2 * known.len() < self.pixels.len() {
             return None;
         }
-        let squares: f64 = shares().map(|share| share * share).sum();
-        Some((squares / known as f64).sqrt()).filter(|share| share.is_finite())
+        Some(mean_square(known).sqrt()).filter(|share| share.is_finite())
     }
+}
+
+impl Pixel {
+    /// Half the width of the interval over the luminance, or over the mean luminance of the picture
+    /// where that is more; `None` where there is no interval.
+    #[must_use]
+    pub(crate) fn relative_half_width(&self, mean_cd_m2: f64) -> Option<f64> {
+        let half_width = f64::from(self.half_width_cd_m2?);
+        let luminance_cd_m2 = mean_cd_m2.max(self.luminance_cd_m2.into());
+        // Black all over, and known to be so.
+        Some(if half_width == 0.0 { 0.0 } else { half_width / luminance_cd_m2 })
+    }
+}
+
+/// 0 of none.
+pub(crate) fn mean_square(values: impl IntoIterator<Item = f64>) -> f64 {
+    let (mut squares, mut count) = (0.0, 0_u32);
+    for value in values {
+        squares += value * value;
+        count += 1;
+    }
+    squares / f64::from(count.max(1))
 }
 
 #[cfg(test)]

@@ -318,19 +318,19 @@ impl<'o> Watch<'o> {
         self.progress.picture = Some(at);
     }
 
-    /// Counts work at a picture, a share of whose whole work is done. Whether to go on: no limit on
-    /// rays ends it before it has a first pass.
+    /// Counts work at a picture, a share of whose whole work is done, if anybody knows. Whether to
+    /// go on: no limit on rays ends it before it has a first pass.
     #[must_use]
     pub(crate) fn tick_picture(
         &mut self,
         paths: u64,
         rays: u64,
         at: PictureProgress,
-        done: f64,
+        done: Option<f64>,
     ) -> bool {
         self.progress.paths = self.progress.paths.saturating_add(paths);
         self.progress.rays = self.progress.rays.saturating_add(rays);
-        self.progress.done = Some(done.clamp(0.0, 1.0));
+        self.progress.done = done.map(|done| done.clamp(0.0, 1.0));
         self.progress.picture = Some(at);
         let may_go_on = self.progress.rays <= self.max_rays || at.complete_samples == 0;
         self.observer.progress(&self.progress) == Control::Continue && may_go_on
