@@ -3,12 +3,19 @@
 
 use crate::finding::{Check, Findings, MAX_LISTED};
 use crate::names;
+use quasilux_scene::light::Luminaire;
 use quasilux_scene::{Bsdf, Light, Places, Scene};
 
 /// White paint and plaster reflect at most about 0.9, special coatings of integrating spheres more.
 const HIGH_REFLECTANCE: f64 = 0.95;
 /// What leaves a luminaire is between these shares of what its lamps give.
 const OUTPUT_RATIO: [f64; 2] = [0.1, 1.15];
+/// No white light has more lumens a watt; files of lamps give 250 at the most.
+const MAX_LM_W: f64 = 400.0;
+/// Files have 0 or 1 where nobody knows the watts.
+const UNKNOWN_W: f64 = 1.0;
+/// Nobody makes a lamp so many times brighter than it was measured.
+const MAX_DIMMING: f64 = 10.0;
 
 pub(crate) fn check(scene: &Scene, findings: &mut Findings<'_>) {
     lamps(scene, findings);
@@ -37,6 +44,10 @@ fn lamps(scene: &Scene, findings: &mut Findings<'_>) {
                         [scene]) or that of the luminaire file may be wrong";
             findings.add(Check::LampTooBig, place, message, cure).at(light.position);
         }
+        if let Some(message) = too_bright(light, file) {
+            let cure = "expected dimming = 1 for what the file says, 0.8 for a fifth less";
+            findings.add(Check::LampBright, place, message, cure).at(light.position);
+        }
         let Some(lamps_lm) = light.photometry.facts().lamps_flux_lm() else { continue };
         let ratio = light.photometry.flux_lm() / lamps_lm;
         if lamps_lm > 0.0 && !(OUTPUT_RATIO[0]..=OUTPUT_RATIO[1]).contains(&ratio) {
@@ -49,6 +60,25 @@ fn lamps(scene: &Scene, findings: &mut Findings<'_>) {
             findings.add(Check::LampFlux, place, message, cure).at(light.position);
         }
     }
+}
+
+/// What is said of a lamp that gives more light than it can.
+fn too_bright(light: &Luminaire, file: &str) -> Option<String> {
+    let (flux_lm, watts) = (light.photometry.flux_lm(), light.photometry.facts().input_watts);
+    if light.dimming > MAX_DIMMING {
+        let given_lm = light.dimming * flux_lm;
+        return Some(format!(
+            "dimming {} makes {given_lm:.0} lm of the {flux_lm:.0} lm of \"{file}\"",
+            light.dimming
+        ));
+    }
+    (watts > UNKNOWN_W && flux_lm > MAX_LM_W * watts).then(|| {
+        format!(
+            "\"{file}\" has {flux_lm:.0} lm of {watts} W, {:.0} lm/W: its lumens or its watts are \
+             wrong",
+            flux_lm / watts
+        )
+    })
 }
 
 fn materials(scene: &Scene, findings: &mut Findings<'_>) {

@@ -12,6 +12,8 @@ pub(crate) const MAX_LISTED: usize = 20;
 pub enum Check {
     /// The geometry is of an implausible size, or of another size than the project's positions.
     Units,
+    /// Neither lamps nor sensors stand where the geometry is.
+    GeometryElsewhere,
     /// Another axis of the geometry points up than the project says.
     UpAxis,
     /// A lamp hangs outside the geometry.
@@ -28,6 +30,8 @@ pub enum Check {
     LampTwice,
     /// The light of a file is far from that of its lamps.
     LampFlux,
+    /// A lamp gives more light than it can.
+    LampBright,
     /// Emitting faces look at nothing.
     EmitterLooksAway,
     /// Sensor points are outside the geometry.
@@ -38,10 +42,14 @@ pub enum Check {
     SensorDark,
     /// A grid has very many points, or one.
     GridSize,
+    /// A horizontal grid looks down, though nothing is above it.
+    GridLooksDown,
     /// A camera is outside the geometry.
     CameraOutside,
     /// A room has holes through which light is lost.
     Hole,
+    /// An opening lets no light from outside into a room.
+    OpeningClosed,
     /// Two surfaces are at one place.
     CoincidentFaces,
     /// A surface reflects more than any paint.
@@ -52,8 +60,9 @@ pub enum Check {
 
 impl Check {
     /// All checks.
-    pub const ALL: [Self; 19] = [
+    pub const ALL: [Self; 23] = [
         Self::Units,
+        Self::GeometryElsewhere,
         Self::UpAxis,
         Self::LampOutside,
         Self::LampBehindSurface,
@@ -62,13 +71,16 @@ impl Check {
         Self::LampTooBig,
         Self::LampTwice,
         Self::LampFlux,
+        Self::LampBright,
         Self::EmitterLooksAway,
         Self::SensorOutside,
         Self::SensorCovered,
         Self::SensorDark,
         Self::GridSize,
+        Self::GridLooksDown,
         Self::CameraOutside,
         Self::Hole,
+        Self::OpeningClosed,
         Self::CoincidentFaces,
         Self::HighReflectance,
         Self::DefaultReflectance,
@@ -79,6 +91,7 @@ impl Check {
     pub const fn name(self) -> &'static str {
         match self {
             Self::Units => "units",
+            Self::GeometryElsewhere => "geometry-elsewhere",
             Self::UpAxis => "up-axis",
             Self::LampOutside => "lamp-outside",
             Self::LampBehindSurface => "lamp-behind-surface",
@@ -87,13 +100,16 @@ impl Check {
             Self::LampTooBig => "lamp-too-big",
             Self::LampTwice => "lamp-twice",
             Self::LampFlux => "lamp-flux",
+            Self::LampBright => "lamp-bright",
             Self::EmitterLooksAway => "emitter-looks-away",
             Self::SensorOutside => "sensor-outside",
             Self::SensorCovered => "sensor-covered",
             Self::SensorDark => "sensor-dark",
             Self::GridSize => "grid-size",
+            Self::GridLooksDown => "grid-looks-down",
             Self::CameraOutside => "camera-outside",
             Self::Hole => "hole",
+            Self::OpeningClosed => "opening-closed",
             Self::CoincidentFaces => "coincident-faces",
             Self::HighReflectance => "high-reflectance",
             Self::DefaultReflectance => "default-reflectance",

@@ -13,6 +13,7 @@
 mod cameras;
 mod coincidence;
 mod darkness;
+mod elsewhere;
 mod emitters;
 mod figures;
 mod finding;
@@ -20,6 +21,7 @@ mod grids;
 mod holes;
 mod lamps;
 mod names;
+mod openings;
 mod orientation;
 mod probe;
 mod sensors;
@@ -56,11 +58,14 @@ pub fn inspect(scene: &Scene, places: &Places, hierarchy: &TriangleBvh) -> Vec<F
     if !scene.mesh.triangles.is_empty() {
         let probe = Probe::new(scene, hierarchy);
         let survey = Survey::new(&probe);
+        elsewhere::check(&survey, &mut findings);
         lamps::check(&survey, &mut findings);
         emitters::check(&survey, &mut findings);
         sensors::check(&survey, &mut findings);
+        grids::check_normals(&survey, &mut findings);
         cameras::check(&survey, &mut findings);
         holes::check(&survey, &mut findings);
+        openings::check(&survey, &mut findings);
         coincidence::check(&survey, &mut findings);
     }
     findings.found

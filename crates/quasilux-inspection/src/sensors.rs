@@ -8,9 +8,9 @@ use crate::units::{self, Thing};
 use glam::DVec3;
 use quasilux_scene::SensorPoint;
 
-/// A surface this near before a sensor point covers it, in m: a workplane is not put a centimetre
-/// below a table top.
-const COVERED_M: f64 = 0.01;
+/// A surface this near before a sensor point covers it, in m: a workplane is not put right below a
+/// table top, which is no thicker.
+const COVERED_M: f64 = 0.03;
 
 /// Nor is most of the light that comes to it allowed to start nearer than this, in m.
 const NEAR_M: f64 = 0.1;

@@ -1,10 +1,13 @@
 //! One measured luminaire: a table of intensities in the luminaire frame, and header facts.
 
-use crate::{DirectionSample, LuminaireFacts, SphericalTable, Tilt, TiltFactor, Web};
+use crate::{DirectionSample, LuminaireFacts, SphericalTable, Standard, Tilt, TiltFactor, Web};
 use glam::DVec3;
 
 /// Integrated and stated flux may differ by this part without a warning.
 pub(crate) const FLUX_TOLERANCE: f64 = 0.01;
+/// Luminaires give no smaller part of the light of their lamps: of published files the darkest
+/// louvres give a quarter.
+const MIN_OUTPUT: f64 = 0.1;
 
 /// A measured luminaire.
 ///
@@ -73,6 +76,14 @@ impl Photometry {
     /// where the file gives no positive number.
     pub fn rated_flux_lm(&self) -> Option<f64> {
         self.facts.rated_flux_lm()
+    }
+
+    /// Whether it gives less light than its lamps, as luminaires do: the lumens of an LM-63 file are
+    /// those of bare lamps.
+    pub fn has_usual_losses(&self) -> bool {
+        let output = self.facts.lamps_flux_lm().map(|lamps_lm| self.flux_lm() / lamps_lm);
+        matches!(self.facts.standard, Standard::Lm63(_))
+            && output.is_some_and(|output| (MIN_OUTPUT..1.0).contains(&output))
     }
 
     /// The same luminaire with tilt factors that stand in another file: see

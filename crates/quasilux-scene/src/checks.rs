@@ -21,8 +21,12 @@ const EXPECTED: &str = "expected a place that light can reach";
 /// A sensor point on a surface is judged by the place this share of the scene's size in front.
 const HAIR: f64 = 1e-6;
 
+/// A closed body that is as wide, and as high, in m, is a room: that no light is in it may be meant,
+/// and the other rooms of a building are wanted all the same.
+const ROOM_M: DVec3 = DVec3::new(1.5, 1.5, 1.8);
+
 /// Refuses cameras and `points` sensors with a point inside a wall, and grids that are altogether
-/// inside; warns of grids with some cells inside.
+/// inside; warns of grids with some cells inside, and of all that is in rooms without light.
 pub(crate) fn places_in_walls(
     scene: &Scene,
     project: &Project,
@@ -42,7 +46,8 @@ pub(crate) fn places_in_walls(
     for entry in &project.sensors {
         check_sensor(entry, &mut walls, project, warnings)?;
     }
-    project.cameras.iter().try_for_each(|entry| check_camera(entry, &mut walls, project))
+    let mut cameras = project.cameras.iter();
+    cameras.try_for_each(|entry| check_camera(entry, &mut walls, project, warnings))
 }
 
 fn check_sensor(
@@ -53,21 +58,19 @@ fn check_sensor(
 ) -> Result<(), LoadError> {
     let name = &entry.sensor.name;
     let points = entry.sensor.points();
-    let inside: Vec<Option<Arc<str>>> = points.iter().map(|point| walls.around(point)).collect();
-    let Some((first, object)) =
-        inside.iter().enumerate().find_map(|(i, object)| Some((i, object.as_ref()?)))
+    let inside: Vec<Option<Wall>> = points.iter().map(|point| walls.around(point)).collect();
+    let count = inside.iter().flatten().count();
+    let in_walls = inside.iter().enumerate().filter_map(|(i, wall)| Some((i, wall.as_ref()?)));
+    let Some((first, wall @ Wall { is_room, .. })) = in_walls.min_by_key(|(_, wall)| wall.is_room)
     else {
         return Ok(());
     };
-
-    let wall = format!("inside the closed object \"{object}\", which holds no light");
-    if let SensorShape::Points(_) = entry.sensor.shape {
+    if let (SensorShape::Points(_), false) = (&entry.sensor.shape, is_room) {
         let place = entry.point_places.get(first).copied().unwrap_or(entry.place);
         let message = format!("point {} of sensor \"{name}\" lies {wall}; {EXPECTED}", first + 1);
         return Err(project.error(place, message));
     }
-    let count = inside.iter().flatten().count();
-    if count == points.len() {
+    if count == points.len() && !is_room {
         return Err(
             project.error(entry.place, format!("sensor \"{name}\" lies {wall}; {EXPECTED}"))
         );
@@ -81,12 +84,29 @@ fn check_camera(
     entry: &CameraEntry,
     walls: &mut Walls<'_>,
     project: &Project,
+    warnings: &mut Vec<Warning>,
 ) -> Result<(), LoadError> {
     let Camera { name, position, target, .. } = &entry.camera;
     let eye = SensorPoint { position: *position, normal: (*target - *position).normalize() };
-    let Some(object) = walls.around(&eye) else { return Ok(()) };
-    let wall = format!("inside the closed object \"{object}\", which holds no light");
-    Err(project.error(entry.place, format!("camera \"{name}\" lies {wall}; {EXPECTED}")))
+    let Some(wall) = walls.around(&eye) else { return Ok(()) };
+    let message = format!("camera \"{name}\" lies {wall}");
+    if wall.is_room {
+        warnings.push(Warning::new(&project.file, Some(entry.place), message));
+        return Ok(());
+    }
+    Err(project.error(entry.place, format!("{message}; {EXPECTED}")))
+}
+
+/// A closed object without light in it.
+struct Wall {
+    object: Arc<str>,
+    is_room: bool,
+}
+
+impl std::fmt::Display for Wall {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "inside the closed object \"{}\", which holds no light", self.object)
+    }
 }
 
 /// The solids of a scene, of which some are walls.
@@ -100,7 +120,7 @@ struct Walls<'a> {
 
 impl Walls<'_> {
     /// The name of a wall that the point is inside of.
-    fn around(&mut self, point: &SensorPoint) -> Option<Arc<str>> {
+    fn around(&mut self, point: &SensorPoint) -> Option<Wall> {
         let position = point.position + point.normal * self.hair_m;
         for (solid, is_lit) in &mut self.solids {
             if *is_lit == Some(true) || !solid.may_contain(position) {
@@ -119,7 +139,8 @@ impl Walls<'_> {
             }
             if *is_lit == Some(false) {
                 let object = mesh.object_of[solid.triangles[0] as usize];
-                return Some(Arc::clone(&mesh.objects[object as usize]));
+                let object = Arc::clone(&mesh.objects[object as usize]);
+                return Some(Wall { object, is_room: solid.edges_m().cmpge(ROOM_M).all() });
             }
         }
         None

@@ -104,10 +104,16 @@ impl Solid {
         Self { triangles, low, high }
     }
 
-    /// The diagonal of the box around the solid, in m.
+    /// The edges of the box around the solid, in m.
+    #[must_use]
+    pub fn edges_m(&self) -> DVec3 {
+        self.high - self.low
+    }
+
+    /// The diagonal of that box, in m.
     #[must_use]
     pub fn size_m(&self) -> f64 {
-        (self.high - self.low).length()
+        self.edges_m().length()
     }
 
     /// Whether the point is in the box around the solid.

@@ -11,6 +11,9 @@ use std::f64::consts::PI;
 /// Half of the angle that the sun's disk is seen under: 0.533 degrees, its mean over a year.
 pub const SUN_RADIUS_DEG: f64 = 0.533 / 2.0;
 
+/// The hours that clocks of time zones and summer time are off at most, in the west of China.
+const MAX_OFF_H: f64 = 3.75;
+
 /// A place on the earth, and its clock.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Site {
@@ -48,6 +51,14 @@ impl Site {
     #[must_use]
     pub fn time_zone_h(&self) -> f64 {
         self.time_zone_h
+    }
+
+    /// Whether its clock is further from the mean sun than that of any time zone, summer time too:
+    /// then the clock or the longitude is that of another place.
+    #[must_use]
+    pub fn has_clock_of_another_place(&self) -> bool {
+        let off_h = self.time_zone_h - self.longitude_deg / 15.0;
+        ((off_h + 12.0).rem_euclid(24.0) - 12.0).abs() > MAX_OFF_H
     }
 
     /// The centre of the sun, as if there were no air: refraction lifts it by half a degree at the

@@ -5,4 +5,5 @@ mod others;
 mod random;
 mod right;
 mod room;
+mod windows;
 mod wrong;

@@ -129,6 +129,8 @@ fn lamps_that_cannot_be() {
     dim.lamp = dim.lamp.replace(dear, "3.18 3.18 0.3 0.3");
     let mut long = Case::new();
     long.lamp = long.lamp.replace("0.1 1.2 0\n", "100 1200 0\n");
+    let mut efficient = Case::new();
+    efficient.lamp = efficient.lamp.replace("\n1 1 20\n", "\n1 1 2.2\n");
     let of_file = |name, case, check, cure| Wrong {
         name,
         case,
@@ -144,6 +146,14 @@ fn lamps_that_cannot_be() {
         of_file("a hundredth of its lamps", dim, Check::LampFlux, "multiplier"),
         of_file("an opening in millimetres", long, Check::LampTooBig, "unit"),
         lamp("listed twice", twice, Check::LampTwice, "another position"),
+        of_file(
+            "dimmed to a hundred times",
+            lamp_at("[4.5, 2, 2.7]")
+                .say("position = [1.5, 2, 2.7]", "position = [1.5, 2, 2.7]\ndimming = 100"),
+            Check::LampBright,
+            "0.8",
+        ),
+        of_file("1000 lm/W", efficient, Check::LampBright, "dimming"),
         Wrong {
             name: "two points at one place",
             case: Case::new().add(&points),
@@ -163,13 +173,15 @@ fn scene(name: &'static str, case: Case, check: Check, cure: &'static str) -> Wr
 fn wrong_units() {
     let geometry = |factor: f64| Case::new().moved(|p| p * factor);
     let all = |factor: f64| geometry(factor).positions_scaled(factor);
-    let both = "position_units";
+    let (both, away) = ("position_units", Check::GeometryElsewhere);
     told(vec![
         scene("OBJ in millimetres", geometry(1000.0), Check::Units, "units = \"mm\""),
         scene("OBJ in centimetres", geometry(100.0), Check::Units, "units = \"cm\""),
         scene("OBJ in inches", geometry(1.0 / 0.0254), Check::Units, "units = \"in\""),
         scene("OBJ in feet", geometry(1.0 / 0.3048), Check::Units, "units = \"ft\""),
         scene("OBJ in metres read as millimetres", geometry(0.001), Check::Units, "units"),
+        scene("a kilometre away", Case::new().moved(|p| p + v(1000.0, 0.0, 0.0)), away, "origin"),
+        scene("metres read as feet", geometry(0.3048), away, "units"),
         scene("all in millimetres", all(1000.0), Check::Units, both),
         scene("all in centimetres", all(100.0), Check::Units, both),
         scene("all in inches", all(1.0 / 0.0254), Check::Units, both),
@@ -282,6 +294,7 @@ fn sensors_in_wrong_places() {
     };
     let moved = |to: &str| Case::new().say(origin, &format!("origin = {to}"));
     let desk = plate("desk", "wall", [v(0.2, 0.2, 0.801), v(3.0, 3.8, 0.801)], true);
+    let thick = plate("desk", "wall", [v(0.2, 0.2, 0.82), v(3.0, 3.8, 0.82)], false);
     let points = "[[sensors]]\nname = \"p\"\nkind = \"points\"\npoints = [[3, 2, 1], [3, 2, 3.2]]\n\
         normals = [[0, 0, 1], [0, 0, 1]]\n";
     told(vec![
@@ -309,6 +322,13 @@ fn sensors_in_wrong_places() {
                 .say("spacing = 0.5", "spacing = 500"),
             Check::SensorOutside,
             "\"mm\"",
+        ),
+        sensor("2 cm below a desk", Case::new().with([thick]), Check::SensorCovered, "other side"),
+        sensor(
+            "looking down",
+            moved("[0.5, 0.5, 0.8]").add("normal = [0, 0, -1]\n"),
+            Check::GridLooksDown,
+            "normal = [0, 0, 1]",
         ),
         sensor("1 mm below a desk", Case::new().with([desk]), Check::SensorCovered, "other side"),
         sensor(

@@ -1,5 +1,7 @@
 //! What is outside, where a file says what shines.
 
+mod odd;
+
 use super::photometry::{load_error, passed_on};
 use crate::environment::{Environment, SkyFacts, SkyModel, Sun};
 use crate::geometry::read_file;
@@ -49,6 +51,7 @@ pub(super) fn resolve(
              of its own";
         warnings.push(Warning::new(&project.file, None, message.to_owned()));
     }
+    odd::tell(project, entry, &sky, &facts, warnings);
     let OutsideEntry { ground_reflectance, north_deg, openings, .. } = entry;
     let (ground_reflectance, north_deg) = (*ground_reflectance, *north_deg);
     let openings = openings.clone();

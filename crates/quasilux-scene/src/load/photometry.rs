@@ -7,7 +7,7 @@ use quasilux_photometry::{Format, ParseError, Photometry, Tilt, WarningKind, rea
 use quasilux_text::Position;
 
 /// Reads an IES, EULUMDAT or TM-33 file, as its content or else its extension says, passing its
-/// warnings on.
+/// warnings on, but for losses that most luminaires have.
 pub(super) fn read(
     project: &Project,
     name: &Spanned<String>,
@@ -27,8 +27,13 @@ pub(super) fn read(
     }
     let read = format.read(&bytes).map_err(|error| load_error(file, &error))?;
     for warning in &read.warnings {
-        // Whether that file is there is found out below.
-        if warning.kind() != WarningKind::TiltFile {
+        let is_told = match warning.kind() {
+            // Whether that file is there is found out below.
+            WarningKind::TiltFile => false,
+            WarningKind::FluxDiffers => !read.photometry.has_usual_losses(),
+            _ => true,
+        };
+        if is_told {
             warnings.push(passed_on(file, warning));
         }
     }

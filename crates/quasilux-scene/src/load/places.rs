@@ -27,6 +27,8 @@ pub struct Places {
     pub sensors: Vec<Position>,
     /// Of each camera.
     pub cameras: Vec<Position>,
+    /// Of each opening to the outside.
+    pub openings: Vec<Position>,
     /// Of each material; `None` where the project file does not describe it.
     pub materials: Vec<Option<Position>>,
     /// Whether any file describes a material; the default is used for the others.
@@ -60,6 +62,7 @@ impl Places {
             lights: luminaires.chain(others).collect(),
             sensors: project.sensors.iter().map(|entry| entry.place).collect(),
             cameras: project.cameras.iter().map(|entry| entry.place).collect(),
+            openings: project.outside.iter().flat_map(|it| it.places.openings.clone()).collect(),
             is_described: described
                 .map(|(of_file, place)| {
                     has_default || place.is_some() || of_file.reflectance.is_some()

@@ -1,6 +1,6 @@
 //! `[site]`, `[sky]`, `[sun]`, `[ground]` and `[[openings]]` of a project.
 
-use crate::support::{MapFiles, PROJECT, load_text};
+use crate::support::{MapFiles, PROJECT, load_text, warnings_of};
 use quasilux_scene::{Environment, LoadError};
 
 /// The small project with other light: what is outside begins on line 4.
@@ -44,6 +44,53 @@ fn every_key_is_read() {
     // The same as a string, in another notation of the same time.
     let quoted = text.replace("2026-06-21T12:00:00", "\"2026-06-21 12:00\"");
     assert_eq!(load_outside(&quoted).unwrap().sun, Some(sun));
+}
+
+/// Berlin at any hour of some days, under a clear sky: by night neither the sky nor the sun can
+/// shine, and by day both may.
+#[test]
+fn light_by_night_is_told() {
+    let warned = |zone_h: f64, longitude_deg: f64, time: &str, sky: &str| {
+        let text = format!(
+            "{sky}[site]\nlatitude_deg = 52.5\nlongitude_deg = {longitude_deg}\ntime_zone_h = {zone_h}\n\
+             [sun]\ntime = {time}\ndirect = true\nnormal_illuminance_lx = 80000\n"
+        );
+        let lamp = "[[lights]]\nkind = \"point\"\nposition = [0.5, 0.5, 2.0]\nintensity_cd = 100\n";
+        let loaded = load_text(&PROJECT.replace(lamp, &text), &MapFiles::room()).unwrap();
+        warnings_of(&loaded)
+    };
+    for (day, sunrise_h, sunset_h) in
+        [("03-20", 6.2, 18.4), ("06-21", 3.8, 20.6), ("12-21", 8.2, 16.0)]
+    {
+        for hour in 0..24 {
+            let told = warned(1.0, 13.4, &format!("2026-{day}T{hour:02}:00:00"), CLEAR);
+            let past_h = (sunrise_h - f64::from(hour)).max(f64::from(hour) - sunset_h);
+            if past_h < -0.3 {
+                assert!(told.is_empty(), "{day} {hour}: {told:?}");
+            } else if past_h > 1.5 {
+                let [sky, direct] = &told[..] else { panic!("{day} {hour}: {told:?}") };
+                assert!(sky.contains("20000 lx with the sun"), "{sky}");
+                assert!(direct.contains("direct = true has no effect"), "{direct}");
+            }
+        }
+    }
+    let noon = "2026-06-21T12:00:00";
+    let [zone] = &warned(8.0, 13.4, "2026-06-21T16:00:00", CLEAR)[..] else {
+        panic!("one warning")
+    };
+    assert!(zone.contains("expected about 1, hours ahead of Greenwich"), "{zone}");
+    for (zone_h, longitude_deg) in
+        [(5.75, 85.3), (-9.0, -150.0), (8.0, 87.6), (13.0, 178.0), (2.0, -4.0)]
+    {
+        assert!(
+            warned(zone_h, longitude_deg, noon, CLEAR).is_empty(),
+            "{zone_h} at {longitude_deg}"
+        );
+    }
+    let [overcast] = &warned(1.0, 13.4, noon, &CLEAR.replace("12", "1"))[..] else {
+        panic!("one warning")
+    };
+    assert!(overcast.contains("CIE type 1,"), "{overcast}");
 }
 
 #[test]

@@ -237,3 +237,18 @@ fn luminaires_are_points_unless_their_area_is_asked_for() {
     let unknown = load_text(&luminaire("as = \"disk\""), &MapFiles::room()).unwrap_err();
     assert!(unknown.to_string().contains("expected \"point\" or \"area\""), "{unknown}");
 }
+
+/// 6283 lm of bare lamps that give 7000 lm are what luminaires do; of 5000 lm, and of 70,000, no
+/// luminaire does it.
+#[test]
+fn losses_of_luminaires_are_told_where_they_are_odd() {
+    for (lamps_lm, is_told) in [("7000", false), ("20000", false), ("5000", true), ("70000", true)]
+    {
+        let ies = LAMP_IES.replace("\n1 -1 1", &format!("\n1 {lamps_lm} 1"));
+        let luminaire = "[[luminaires]]\nphotometry = \"own.ies\"\nposition = [0, 0, 2]\n";
+        let files = MapFiles::room().with("own.ies", &ies);
+        let loaded = load_text(&format!("{PROJECT}{luminaire}"), &files).unwrap();
+        let told = warnings_of(&loaded);
+        assert_eq!(told.iter().any(|it| it.contains("integrated flux")), is_told, "{told:?}");
+    }
+}

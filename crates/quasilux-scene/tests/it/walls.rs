@@ -154,3 +154,28 @@ fn a_camera_in_a_cupboard_is_refused() {
     let expected = "room.toml:16:1: camera \"eye\" lies inside the closed object \"cupboard\"";
     assert!(text.starts_with(expected), "{text}");
 }
+
+/// A store of a building that is dark, and a lamp above the ceiling, are told; what else is in the
+/// scene is wanted all the same.
+#[test]
+fn rooms_without_light_are_told_and_not_refused() {
+    let obj = "mtllib room.mtl\n".to_owned()
+        + &box_obj("room", [-1.0; 3], [3.0; 3], 1)
+        + &box_obj("store", [4.0, -1.0, -1.0], [5.6, 3.0, 1.5], 9);
+    let files = MapFiles::room().with("room.obj", obj);
+    let camera = "[[cameras]]\nname = \"eye\"\nposition = [4.2, 0.5, 0]\ntarget = [5, 0.5, 0]\n\
+        vertical_fov_deg = 50\nresolution = [4, 3]\n";
+    let project = probe("[0.5, 0.5, 0.5], [5, 0.5, 0.5]") + camera;
+    assert_eq!(
+        warnings_of(&load_text(&project, &files).unwrap()),
+        [
+            "room.toml:9:1: 1 of 2 points of sensor \"probe\" lie inside the closed object \
+             \"store\", which holds no light",
+            "room.toml:17:1: camera \"eye\" lies inside the closed object \"store\", which holds no \
+             light"
+        ]
+    );
+    let above = probe("[0.5, 0.5, 0.5]").replace("[0.5, 0.5, 2.0]", "[0.5, 0.5, 3.05]");
+    let loaded = load_text(&above, &files).unwrap();
+    assert!(warnings_of(&loaded)[0].contains("closed object \"room\""), "{:?}", loaded.warnings);
+}

@@ -4,8 +4,6 @@ use super::possible::Possible;
 use super::{Weather, WeatherHour, WeatherLight, WeatherUnits, WeatherWarning};
 use quasilux_text::{Position, Warnings};
 
-/// The hours that clocks of time zones and summer time are off at most, in the west of China.
-const MAX_OFF_H: f64 = 3.75;
 /// Less is the noise of instruments, in W/m2 and in lx.
 const NOISE_W_M2: f64 = 10.0;
 const NOISE_LX: f64 = 1000.0;
@@ -45,8 +43,7 @@ pub(super) fn tell(
 
 fn tell_of_the_zone(weather: &Weather, warnings: &mut Warnings<WeatherWarning>) {
     let (zone_h, longitude_deg) = (weather.site.time_zone_h(), weather.site.longitude_deg());
-    let off_h = (zone_h - longitude_deg / 15.0 + 12.0).rem_euclid(24.0) - 12.0;
-    if off_h.abs() > MAX_OFF_H {
+    if weather.site.has_clock_of_another_place() {
         let found =
             format!("a clock {zone_h} h ahead of Greenwich at {longitude_deg} degrees east");
         let expected = format!("about {:.0} h (the sun stands by the clock)", longitude_deg / 15.0);

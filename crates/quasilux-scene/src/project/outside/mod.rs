@@ -8,6 +8,7 @@ use super::document::{Section, Value};
 use crate::environment::{Opening, SkyFacts, SkyModel, Sun};
 use crate::{LoadError, Spanned};
 use quasilux_sky::{LocalTime, Site, Sky, SkyError, SkyLevel};
+use quasilux_text::Position;
 use site::Oriented;
 use sky::Lit;
 
@@ -23,6 +24,18 @@ pub(crate) struct OutsideEntry {
     pub(crate) ground_reflectance: f64,
     pub(crate) north_deg: f64,
     pub(crate) openings: Vec<Opening>,
+    pub(crate) places: OutsidePlaces,
+}
+
+/// Where the project file says it.
+#[derive(Clone, Debug)]
+pub(crate) struct OutsidePlaces {
+    pub(crate) site: Option<Position>,
+    pub(crate) sun: Option<Position>,
+    /// Where it asks for the disk of the sun.
+    pub(crate) direct: Option<Position>,
+    /// Of each opening.
+    pub(crate) openings: Vec<Position>,
 }
 
 /// What shines outside.
@@ -103,8 +116,20 @@ pub(super) fn read(root: &Section<'_>) -> Result<Option<OutsideEntry>, LoadError
         }
         _ => known(root, &section, &model, &site)?,
     };
-    let (ground_reflectance, openings) = (ground(root)?, openings(root)?);
-    Ok(Some(OutsideEntry { light, ground_reflectance, north_deg: site.north_deg, openings }))
+    let sun = root.table("sun")?;
+    let places = OutsidePlaces {
+        site: site_section.as_ref().map(Section::place),
+        sun: sun.as_ref().map(Section::place),
+        direct: sun.as_ref().map(sun::place_of_direct).transpose()?.flatten(),
+        openings: root.tables("openings")?.iter().map(Section::place).collect(),
+    };
+    Ok(Some(OutsideEntry {
+        light,
+        ground_reflectance: ground(root)?,
+        north_deg: site.north_deg,
+        openings: openings(root)?,
+        places,
+    }))
 }
 
 /// What shines by a model that needs no weather file.

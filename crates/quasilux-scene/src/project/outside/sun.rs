@@ -6,6 +6,7 @@ use crate::Spanned;
 use crate::environment::Sun;
 use crate::project::document::{Section, Value};
 use quasilux_sky::{LocalTime, SkyError, SkyPoint};
+use quasilux_text::Position;
 
 const KEYS: [&str; 5] = ["altitude_deg", "azimuth_deg", "time", "direct", "normal_illuminance_lx"];
 /// Keys of a sun that a weather file describes.
@@ -100,6 +101,12 @@ pub(super) fn disk(
     // Below the horizon there is no sun.
     let is_up = centre.altitude_deg > 0.0 && normal_illuminance_lx > 0.0;
     Ok(is_up.then_some(Sun { centre: *centre, normal_illuminance_lx }))
+}
+
+/// Where a section asks for the disk of the sun.
+pub(super) fn place_of_direct(section: &Section<'_>) -> Result<Option<Position>, LoadError> {
+    let asked = is_direct(section)?;
+    Ok(section.get("direct").filter(|_| asked).map(|value| value.place()))
 }
 
 fn is_direct(section: &Section<'_>) -> Result<bool, LoadError> {

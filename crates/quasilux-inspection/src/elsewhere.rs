@@ -1,0 +1,38 @@
+//! Geometry that is not where lamps and sensors are: far from the origin, or in another unit.
+
+use crate::finding::{Check, Findings};
+use crate::names;
+use crate::survey::{Survey, position_of};
+use glam::DVec3;
+
+/// What is this near to the geometry, in m, is beside it: a luminaire on the outside of a wall.
+const BESIDE_M: f64 = 0.5;
+
+pub(crate) fn check(survey: &Survey<'_>, findings: &mut Findings<'_>) {
+    let scene = survey.probe.scene;
+    let Some([low, high]) = scene.mesh.bounds() else { return };
+    // Above a square or a road are its lamps.
+    let is_there = |at: DVec3| {
+        let [near, far] = [low - DVec3::splat(BESIDE_M), high + DVec3::splat(BESIDE_M)];
+        at.truncate().cmpge(near.truncate()).all() && at.truncate().cmple(far.truncate()).all()
+    };
+    let lamps: Vec<DVec3> = scene.lights.iter().filter_map(position_of).collect();
+    let points = survey.asked.iter().map(|asked| asked.point.position);
+    let elsewhere: Vec<DVec3> = points.filter(|&at| !is_there(at)).collect();
+    let all_lamps = !lamps.is_empty() && lamps.iter().all(|&at| !is_there(at));
+    // Most of them: a grid that is too long ends at the wrong wall.
+    if all_lamps && 2 * elsewhere.len() > survey.asked.len() {
+        let message = format!(
+            "no lamp and {} of {} sensor points stand within the outline of the geometry, which is \
+             from {} to {}",
+            survey.asked.len() - elsewhere.len(),
+            survey.asked.len(),
+            names::position(low),
+            names::position(high)
+        );
+        let cure = "expected both in one room: the geometry may be in another unit (units in \
+                    [scene]), or far from its origin in the program that it comes from";
+        let place = findings.places.scene;
+        findings.add(Check::GeometryElsewhere, place, message, cure).at(elsewhere[0]);
+    }
+}
