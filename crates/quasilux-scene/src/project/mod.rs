@@ -31,7 +31,7 @@ pub(crate) use electric_light::ElectricLightEntry;
 pub(crate) use lights::{Emission, LightEntry};
 pub(crate) use luminaires::LuminaireEntry;
 pub(crate) use materials::{LayerEntry, MaterialEntry, Scattering};
-pub(crate) use outside::{OutsideEntry, OutsideLight, PanoramaEntry, WeatherEntry};
+pub(crate) use outside::{OutsideEntry, OutsideLight, OutsidePlaces, PanoramaEntry, WeatherEntry};
 pub(crate) use sensors::SensorEntry;
 
 use crate::{LoadError, Spanned};

@@ -2,8 +2,8 @@
 
 use crate::Warning;
 use crate::environment::{SkyFacts, SkyModel};
-use crate::project::{OutsideEntry, OutsideLight, Project};
-use quasilux_sky::Sky;
+use crate::project::{OutsideEntry, OutsideLight, OutsidePlaces, Project};
+use quasilux_sky::{Site, Sky, SkyPoint};
 
 /// The end of civil twilight, and the light of the sky there.
 const NIGHT_DEG: f64 = -6.0;
@@ -18,53 +18,53 @@ pub(super) fn tell(
     facts: &SkyFacts,
     warnings: &mut Vec<Warning>,
 ) {
-    let mut warn = |place, message: String| {
-        warnings.push(Warning::new(&project.file, place, message));
-    };
+    let OutsidePlaces { site, sun, direct, .. } = entry.places;
+    // Their readers tell what is odd about weather files.
     let is_of_a_file = matches!(entry.light, OutsideLight::Weather(_));
-    if let Some(site) = facts.site.filter(|site| !is_of_a_file && site.has_clock_of_another_place())
-    {
-        let (zone_h, longitude_deg) = (site.time_zone_h(), site.longitude_deg());
-        warn(
-            entry.places.site,
-            format!(
-                "time_zone_h = {zone_h} at {longitude_deg} degrees east; expected about {:.0}, hours \
-                 ahead of Greenwich (the sun stands by the clock)",
-                longitude_deg / 15.0
-            ),
-        );
+    let of_site = facts.site.filter(|_| !is_of_a_file).and_then(|it| odd_clock(&it));
+    let of_sky = facts.sun.filter(|_| !is_of_a_file).and_then(|it| odd_sky(sky, it));
+    let of_direct = facts.sun.filter(|_| direct.is_some()).and_then(|it| odd_disk(facts, it));
+    for (place, message) in [(site, of_site), (sun, of_sky), (direct, of_direct)] {
+        warnings.extend(message.map(|message| Warning::new(&project.file, place, message)));
     }
-    let Some(sun) = facts.sun else { return };
-    let below_deg = -sun.altitude_deg;
+}
+
+fn odd_clock(site: &Site) -> Option<String> {
+    let (zone_h, longitude_deg) = (site.time_zone_h(), site.longitude_deg());
+    site.has_clock_of_another_place().then(|| {
+        format!(
+            "time_zone_h = {zone_h} at {longitude_deg} degrees east; expected about {:.0}, hours \
+             ahead of Greenwich (the sun stands by the clock)",
+            longitude_deg / 15.0
+        )
+    })
+}
+
+fn odd_sky(sky: &Sky, sun: SkyPoint) -> Option<String> {
     let lx = sky.horizontal_illuminance_lx();
-    if sun.altitude_deg < NIGHT_DEG && lx > TWILIGHT_LX && !is_of_a_file {
-        warn(
-            entry.places.sun,
-            format!(
-                "the sky gives {lx:.0} lx with the sun {below_deg:.0} degrees below the horizon; \
-                 expected a time of the day, by the clock of the site"
-            ),
-        );
+    (sun.altitude_deg < NIGHT_DEG && lx > TWILIGHT_LX).then(|| {
+        format!(
+            "the sky gives {lx:.0} lx with the sun {:.0} degrees below the horizon; expected a time \
+             of the day, by the clock of the site",
+            -sun.altitude_deg
+        )
+    })
+}
+
+fn odd_disk(facts: &SkyFacts, sun: SkyPoint) -> Option<String> {
+    if sun.altitude_deg <= 0.0 {
+        return Some(format!(
+            "direct = true has no effect: the sun is {:.0} degrees below the horizon; expected a \
+             time of the day, by the clock of the site",
+            -sun.altitude_deg
+        ));
     }
-    let Some(direct) = entry.places.direct else { return };
-    if below_deg >= 0.0 {
-        warn(
-            Some(direct),
-            format!(
-                "direct = true has no effect: the sun is {below_deg:.0} degrees below the horizon; \
-                 expected a time of the day, by the clock of the site"
-            ),
-        );
-    } else if let SkyModel::Cie(cie) = &facts.model
-        && OVERCAST.contains(&cie.number())
-    {
-        warn(
-            Some(direct),
-            format!(
-                "direct = true with the overcast sky of CIE type {}, which no sun shines through; \
-                 expected a type from 6 to 15, or no direct sun",
-                cie.number()
-            ),
-        );
-    }
+    let SkyModel::Cie(cie) = &facts.model else { return None };
+    OVERCAST.contains(&cie.number()).then(|| {
+        format!(
+            "direct = true with the overcast sky of CIE type {}, which no sun shines through; \
+             expected a type from 6 to 15, or no direct sun",
+            cie.number()
+        )
+    })
 }
