@@ -78,8 +78,8 @@ impl Photometry {
         self.facts.rated_flux_lm()
     }
 
-    /// Whether it gives less light than its lamps, as luminaires do: the lumens of an LM-63 file are
-    /// those of bare lamps.
+    /// Whether it gives less light than its lamps, as luminaires do: the lumens of an LM-63 file
+    /// are those of bare lamps.
     pub fn has_usual_losses(&self) -> bool {
         let output = self.facts.lamps_flux_lm().map(|lamps_lm| self.flux_lm() / lamps_lm);
         matches!(self.facts.standard, Standard::Lm63(_))

@@ -21,8 +21,8 @@ const EXPECTED: &str = "expected a place that light can reach";
 /// A sensor point on a surface is judged by the place this share of the scene's size in front.
 const HAIR: f64 = 1e-6;
 
-/// A closed body that is as wide, and as high, in m, is a room: that no light is in it may be meant,
-/// and the other rooms of a building are wanted all the same.
+/// A closed body that is as wide, and as high, in m, is a room: that no light is in it may be
+/// meant, and the other rooms of a building are wanted all the same.
 const ROOM_M: DVec3 = DVec3::new(1.5, 1.5, 1.8);
 
 /// Refuses cameras and `points` sensors with a point inside a wall, and grids that are altogether

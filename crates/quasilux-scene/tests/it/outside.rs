@@ -52,7 +52,8 @@ fn every_key_is_read() {
 fn light_by_night_is_told() {
     let warned = |zone_h: f64, longitude_deg: f64, time: &str, sky: &str| {
         let text = format!(
-            "{sky}[site]\nlatitude_deg = 52.5\nlongitude_deg = {longitude_deg}\ntime_zone_h = {zone_h}\n\
+            "{sky}[site]\nlatitude_deg = 52.5\nlongitude_deg = {longitude_deg}\n\
+             time_zone_h = {zone_h}\n\
              [sun]\ntime = {time}\ndirect = true\nnormal_illuminance_lx = 80000\n"
         );
         let lamp = "[[lights]]\nkind = \"point\"\nposition = [0.5, 0.5, 2.0]\nintensity_cd = 100\n";

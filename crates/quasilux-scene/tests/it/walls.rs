@@ -171,8 +171,8 @@ fn rooms_without_light_are_told_and_not_refused() {
         [
             "room.toml:9:1: 1 of 2 points of sensor \"probe\" lie inside the closed object \
              \"store\", which holds no light",
-            "room.toml:17:1: camera \"eye\" lies inside the closed object \"store\", which holds no \
-             light"
+            "room.toml:17:1: camera \"eye\" lies inside the closed object \"store\", which \
+             holds no light"
         ]
     );
     let above = probe("[0.5, 0.5, 0.5]").replace("[0.5, 0.5, 2.0]", "[0.5, 0.5, 3.05]");

@@ -44,8 +44,8 @@ fn odd_sky(sky: &Sky, sun: SkyPoint) -> Option<String> {
     let lx = sky.horizontal_illuminance_lx();
     (sun.altitude_deg < NIGHT_DEG && lx > TWILIGHT_LX).then(|| {
         format!(
-            "the sky gives {lx:.0} lx with the sun {:.0} degrees below the horizon; expected a time \
-             of the day, by the clock of the site",
+            "the sky gives {lx:.0} lx with the sun {:.0} degrees below the horizon; expected a \
+             time of the day, by the clock of the site",
             -sun.altitude_deg
         )
     })
