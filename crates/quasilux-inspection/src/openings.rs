@@ -7,8 +7,9 @@ use crate::survey::Survey;
 use glam::DVec3;
 use quasilux_scene::Opening;
 
-/// Places that are looked at along each edge.
-const ALONG: u32 = 6;
+/// Places that are looked at along each edge, and in all openings together.
+const MAX_ALONG: u32 = 6;
+const PLACES: u32 = 4096;
 /// Directions in which the sky is looked for.
 const DIRECTIONS: u32 = 64;
 /// A surface this near behind an opening closes it, in m; blinds hang further away.
@@ -29,12 +30,13 @@ enum Closed {
 
 pub(crate) fn check(survey: &Survey<'_>, findings: &mut Findings<'_>) {
     let Some(outside) = &survey.probe.scene.environment else { return };
+    let along = (PLACES / outside.openings.len().max(1) as u32).isqrt().clamp(1, MAX_ALONG);
     let mut told = 0;
     for (number, opening) in outside.openings.iter().enumerate() {
-        let places = places_of(opening);
+        let places = places_of(opening, along);
         let closed: Vec<(DVec3, Closed)> =
             places.filter_map(|at| Some((at, closed(survey, opening, at)?))).collect();
-        let share = closed.len() as f64 / f64::from(ALONG * ALONG);
+        let share = closed.len() as f64 / f64::from(along * along);
         if share < MAX_CLOSED || told == MAX_LISTED {
             continue;
         }
@@ -60,10 +62,11 @@ pub(crate) fn check(survey: &Survey<'_>, findings: &mut Findings<'_>) {
     }
 }
 
-fn places_of(opening: &Opening) -> impl Iterator<Item = DVec3> {
+/// So many places along each edge.
+fn places_of(opening: &Opening, count: u32) -> impl Iterator<Item = DVec3> {
     let Opening { origin, u, v } = *opening;
-    let along = |i: u32| (f64::from(i) + 0.5) / f64::from(ALONG);
-    (0..ALONG * ALONG).map(move |i| origin + u * along(i % ALONG) + v * along(i / ALONG))
+    let along = move |i: u32| (f64::from(i) + 0.5) / f64::from(count);
+    (0..count * count).map(move |i| origin + u * along(i % count) + v * along(i / count))
 }
 
 /// `None` where light from outside comes in.

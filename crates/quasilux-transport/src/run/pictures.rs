@@ -50,7 +50,11 @@ pub(crate) fn add_pictures<S: Spectrum>(
         let wish = Wish::new(camera, settings);
         let replicates = settings.effective_replicates() as usize;
         let mut taken = Exposure::nothing(wish.rel_tol, replicates);
-        if let Some(darkroom) = Darkroom::new(context, settings, number as u32, camera, watch) {
+        let at = PictureProgress { camera: number, rel_tol: wish.rel_tol, ..Default::default() };
+        // Where time is over, no camera begins.
+        let begins = watch.tick_picture(0, 0, at, None);
+        let darkroom = || Darkroom::new(context, settings, number as u32, camera, watch);
+        if let Some(darkroom) = begins.then(darkroom).flatten() {
             let mut sitting = Sitting { number, wish, darkroom, traced: 0.0 };
             taken = sitting.take(taken, &mut work, watch);
             taken.invalid += sitting.darkroom.invalid_photons();
