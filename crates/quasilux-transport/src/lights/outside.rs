@@ -14,6 +14,7 @@ mod apertures;
 mod directions;
 mod hull;
 mod photons;
+mod portals;
 #[cfg(test)]
 mod tests;
 mod views;
@@ -110,6 +111,7 @@ impl<'a> OutsideLight<'a> {
             let panes = world.facets.iter().filter(lets_through);
             portals = panes.map(|facet| facet.corners()).collect();
         }
+        let portals = portals::few(portals);
         let portals: Vec<Portal> = portals.into_iter().filter_map(Portal::new).collect();
         let bright = BrightSky::new(environment, !portals.is_empty());
         let sun =

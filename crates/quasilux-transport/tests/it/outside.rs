@@ -201,7 +201,18 @@ fn an_even_outside_is_a_lamp_in_the_window() {
     }
 }
 
-/// Openings only say where to ask: named elsewhere, in part or not at all, they change no value.
+/// The window in so many tiles along each edge.
+fn tiles(window: &Opening, count: u32) -> Vec<Opening> {
+    let [u, v] = [window.u, window.v].map(|edge| edge / f64::from(count));
+    let tile = |k: u32| {
+        let origin = window.origin + u * f64::from(k % count) + v * f64::from(k / count);
+        Opening { origin, u, v }
+    };
+    (0..count * count).map(tile).collect()
+}
+
+/// Openings only say where to ask: named elsewhere, in part, in hundreds of parts or not at all,
+/// they change no value.
 #[test]
 fn openings_in_the_wrong_place_change_no_value() {
     let mut numbers = Numbers(13);
@@ -210,7 +221,8 @@ fn openings_in_the_wrong_place_change_no_value() {
     let elsewhere = Opening { origin: window.origin + DVec3::Z * 0.4, ..window };
     let part = Opening { u: window.u * 0.5, ..window };
     let mut all = Vec::new();
-    for openings in [vec![window], vec![], vec![elsewhere], vec![part], vec![window, part]] {
+    let odd = [vec![], vec![elsewhere], vec![part], vec![window, part], tiles(&window, 40)];
+    for openings in [vec![vec![window]], odd.to_vec()].concat() {
         scene.environment = Some(Environment { openings, ..environment.clone() });
         all.push(intervals(&run(&scene, 0.02, 3)));
     }
