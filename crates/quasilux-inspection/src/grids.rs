@@ -44,7 +44,11 @@ pub(crate) fn check_normals(survey: &Survey<'_>, findings: &mut Findings<'_>) {
         let middle = grid.origin + 0.5 * (grid.u + grid.v);
         let from = middle - DVec3::Z * ON_CEILING_M;
         let above = survey.probe.first(from, DVec3::Z).map(|above| above.distance_m);
-        if grid.normal.z > -DOWN || above.is_some_and(|above_m| above_m <= UNDER_M) {
+        // A single cell is no workplane.
+        if grid.cells() == 1
+            || grid.normal.z > -DOWN
+            || above.is_some_and(|above_m| above_m <= UNDER_M)
+        {
             continue;
         }
         let message = format!(
