@@ -12,6 +12,7 @@ pub use explanation::explanation;
 
 use crate::number::{FigureText, brief, count, exact, figure_text, plural};
 use crate::{CameraReport, Figure, Report, SensorReport, Summary};
+use quasilux_text::printable;
 use quasilux_transport::{Settings, ToleranceOn, UnseenTolerance};
 use std::fmt::Write;
 use unicode_width::UnicodeWidthStr;
@@ -307,11 +308,6 @@ impl Verdict {
         };
         Self { emphasis: Emphasis::Good, text }
     }
-}
-
-/// Text without control characters: names come from files, and the terminal obeys what it is sent.
-fn printable(text: &str) -> String {
-    text.chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect()
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 //! a stderr that takes nothing nobody can be told.
 
 use crate::exit::CliError;
+use quasilux_text::printable;
 use std::fmt;
 use std::io::{self, BufWriter, ErrorKind, Write};
 
@@ -10,9 +11,12 @@ pub(crate) fn print(text: &str) -> Result<(), CliError> {
     to_stdout(|out| out.write_all(text.as_bytes()))
 }
 
-/// Tells the user something beside the output.
+/// Tells the user something beside the output; names in it come from files, and the terminal obeys
+/// what it is sent.
 pub(crate) fn tell(message: impl fmt::Display) {
-    tell_text(&format!("{message}\n"));
+    let message = message.to_string();
+    let lines: String = message.split('\n').map(|line| printable(line) + "\n").collect();
+    tell_text(&lines);
 }
 
 /// The same with line feeds of its own.

@@ -37,6 +37,7 @@ const MAY_USE: [(&str, &[&str]); 17] = [
             "quasilux-inspection",
             "quasilux-scene",
             "quasilux-sky",
+            "quasilux-text",
             "quasilux-drawing",
         ],
     ),

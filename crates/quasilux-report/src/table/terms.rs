@@ -1,7 +1,8 @@
 //! The terms of the Neumann series on the terminal: averages by bounces, one line a sensor.
 
-use super::{Column, Style, lines, printable};
+use super::{Column, Style, lines};
 use crate::{Figure, Report};
+use quasilux_text::printable;
 
 /// The averages of all listed terms, after an empty line; nothing where none are.
 pub(super) fn terms(report: &Report, style: Style) -> String {

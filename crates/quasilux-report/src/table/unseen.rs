@@ -1,8 +1,8 @@
 //! Light that no sample met, on the terminal.
 
-use super::printable;
 use crate::number::brief;
 use crate::{Report, SensorReport};
+use quasilux_text::printable;
 
 /// What a figure may lack.
 enum Lack {

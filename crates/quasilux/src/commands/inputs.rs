@@ -2,7 +2,7 @@
 
 use crate::input;
 use quasilux_scene::FileKind;
-use quasilux_text::{ParseError, Warning};
+use quasilux_text::{ParseError, Warning, printable};
 use serde::Serialize;
 use std::fmt;
 use std::io;
@@ -64,11 +64,6 @@ pub(super) fn bytes_of(path: &Path, kind: FileKind) -> Result<Vec<u8>, Failure> 
 /// A warning as a line of a summary.
 pub(super) fn warning_line<K: Copy + fmt::Debug>(name: &str, warning: &Warning<K>) -> String {
     printable(&format!("warning: {name}:{warning} [{}]", rule(warning)))
-}
-
-/// Text without control characters: names come from files, and the terminal obeys what it is sent.
-pub(super) fn printable(text: &str) -> String {
-    text.chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect()
 }
 
 /// The rule's name, as the `WarningKind` of the reader's crate lists it.

@@ -2,9 +2,10 @@
 
 use super::input::{Input, Surface};
 use crate::arguments::Incidence;
-use crate::commands::inputs::{printable, warning_line};
+use crate::commands::inputs::warning_line;
 use quasilux_bsdf::{EnergyBalance, ScatteringMode, Side, luminance};
 use quasilux_report::number::brief;
+use quasilux_text::printable;
 
 /// A line for the file, lines for each side, and a line for each warning.
 pub(super) fn summary(input: &Input, surface: &Surface, incidences: &[Incidence]) -> String {

@@ -1,12 +1,12 @@
 //! What was understood, for people.
 
-use crate::commands::inputs::printable;
 use crate::project::Project;
 use glam::DVec3;
 use quasilux_inspection::Finding;
 use quasilux_report::number::{brief, plural};
 use quasilux_scene::bsdf::Pane;
 use quasilux_scene::{Bsdf, Environment, Light, Scene, SensorShape};
+use quasilux_text::printable;
 use std::fmt::Write;
 
 /// Lights, sensors, materials that are listed.

@@ -2,10 +2,11 @@
 
 use super::input::{Input, Luminaire};
 use super::words::{self, degrees};
-use crate::commands::inputs::{printable, warning_line};
+use crate::commands::inputs::warning_line;
 use quasilux_photometry::analysis::{MaximumIntensity, PlaneAnalysis, Spread};
 use quasilux_photometry::{Analysis, PhotometricType, Symmetry};
 use quasilux_report::number::brief;
+use quasilux_text::printable;
 
 /// Digits of fluxes and intensities.
 const DIGITS: i32 = 5;

@@ -1,9 +1,9 @@
 //! What is outside, for people.
 
 use super::subject::{ShownSky, Subject};
-use crate::commands::inputs::printable;
 use quasilux_report::number::brief;
 use quasilux_sky::Site;
+use quasilux_text::printable;
 use std::fmt::Write;
 
 /// Digits of figures.

@@ -1,6 +1,7 @@
 //! Geometry files that make no sense.
 
 use super::{Case, FLOOR_OBJ, check};
+use crate::support::Folder;
 
 #[test]
 fn geometry_files() {
@@ -137,4 +138,22 @@ fn with_chunk_length(container: &[u8], length: u32) -> Vec<u8> {
 
 fn with_version(container: &[u8], version: u32) -> Vec<u8> {
     [&container[..4], &version.to_le_bytes(), &container[8..]].concat()
+}
+
+/// Names come from files, and are shown as what they are: no colours, no turned writing, no page of
+/// one word.
+#[test]
+fn names_of_files_command_no_terminal() {
+    let long = "x".repeat(20_000);
+    let names = ["wo\u{1b}[31mod", "wo\u{202e}od", "wo\u{7}od", &long];
+    let shown = ["wo\\u{1b}[31mod", "wo\\u{202e}od", "wo\\u{7}od", "xxx..."];
+    let folder = Folder::new("terminal");
+    for (name, shown) in names.into_iter().zip(shown) {
+        let obj = FLOOR_OBJ.replace("usemtl wood", &format!("usemtl {name}"));
+        let run = Case::new("a name").file("room.obj", obj).run(&folder);
+        assert_eq!(run.code, Some(2), "{}", run.stderr);
+        assert!(run.stderr.contains(shown), "{}", run.stderr);
+        let is_plain = |c: char| c == '\n' || !(c.is_control() || c == '\u{202e}');
+        assert!(run.stderr.chars().all(is_plain) && run.stderr.len() < 1000, "{:?}", run.stderr);
+    }
 }
