@@ -3,7 +3,6 @@
 
 use crate::finding::{Check, Findings, MAX_LISTED};
 use crate::names;
-use quasilux_scene::light::Luminaire;
 use quasilux_scene::{Bsdf, Light, Places, Scene};
 
 /// White paint and plaster reflect at most about 0.9, special coatings of integrating spheres more.
@@ -19,6 +18,7 @@ const MAX_DIMMING: f64 = 10.0;
 
 pub(crate) fn check(scene: &Scene, findings: &mut Findings<'_>) {
     lamps(scene, findings);
+    dimmings(scene, findings);
     materials(scene, findings);
 }
 
@@ -44,8 +44,11 @@ fn lamps(scene: &Scene, findings: &mut Findings<'_>) {
                         [scene]) or that of the luminaire file may be wrong";
             findings.add(Check::LampTooBig, place, message, cure).at(light.position);
         }
-        if let Some(message) = too_bright(light, file) {
-            let cure = "expected dimming = 1 for what the file says, 0.8 for a fifth less";
+        let (flux_lm, watts) = (light.photometry.flux_lm(), light.photometry.facts().input_watts);
+        if watts > UNKNOWN_W && flux_lm > MAX_LM_W * watts {
+            let message =
+                format!("\"{file}\" has {flux_lm:.0} lm of {watts} W, {:.0} lm/W", flux_lm / watts);
+            let cure = "expected 250 lm/W at the most: its lumens or its watts are wrong";
             findings.add(Check::LampBright, place, message, cure).at(light.position);
         }
         let Some(lamps_lm) = light.photometry.facts().lamps_flux_lm() else { continue };
@@ -62,23 +65,25 @@ fn lamps(scene: &Scene, findings: &mut Findings<'_>) {
     }
 }
 
-/// What is said of a lamp that gives more light than it can.
-fn too_bright(light: &Luminaire, file: &str) -> Option<String> {
-    let (flux_lm, watts) = (light.photometry.flux_lm(), light.photometry.facts().input_watts);
-    if light.dimming > MAX_DIMMING {
-        let given_lm = light.dimming * flux_lm;
-        return Some(format!(
-            "dimming {} makes {given_lm:.0} lm of the {flux_lm:.0} lm of \"{file}\"",
-            light.dimming
-        ));
+/// Lamps that are dimmed to more than they can give, each by itself.
+fn dimmings(scene: &Scene, findings: &mut Findings<'_>) {
+    let before = findings.found.len();
+    for (index, light) in scene.lights.iter().enumerate() {
+        let Light::Luminaire(light) = light else { continue };
+        if light.dimming <= MAX_DIMMING || findings.found.len() - before >= MAX_LISTED {
+            continue;
+        }
+        let what = names::light(findings.places, &scene.lights, index);
+        let flux_lm = light.photometry.flux_lm();
+        let message = format!(
+            "dimming {} makes {:.0} lm of the {flux_lm:.0} lm of {what}",
+            light.dimming,
+            light.dimming * flux_lm
+        );
+        let cure = "expected dimming = 1 for what the file says, 0.8 for a fifth less";
+        let place = findings.places.lights[index];
+        findings.add(Check::LampBright, place, message, cure).at(light.position);
     }
-    (watts > UNKNOWN_W && flux_lm > MAX_LM_W * watts).then(|| {
-        format!(
-            "\"{file}\" has {flux_lm:.0} lm of {watts} W, {:.0} lm/W: its lumens or its watts are \
-             wrong",
-            flux_lm / watts
-        )
-    })
 }
 
 fn materials(scene: &Scene, findings: &mut Findings<'_>) {

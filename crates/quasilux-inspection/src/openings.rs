@@ -31,16 +31,18 @@ enum Closed {
 pub(crate) fn check(survey: &Survey<'_>, findings: &mut Findings<'_>) {
     let Some(outside) = &survey.probe.scene.environment else { return };
     let along = (PLACES / outside.openings.len().max(1) as u32).isqrt().clamp(1, MAX_ALONG);
-    let mut told = 0;
+    let before = findings.found.len();
     for (number, opening) in outside.openings.iter().enumerate() {
+        if findings.found.len() - before >= MAX_LISTED {
+            break;
+        }
         let places = places_of(opening, along);
         let closed: Vec<(DVec3, Closed)> =
             places.filter_map(|at| Some((at, closed(survey, opening, at)?))).collect();
         let share = closed.len() as f64 / f64::from(along * along);
-        if share < MAX_CLOSED || told == MAX_LISTED {
+        if share < MAX_CLOSED {
             continue;
         }
-        told += 1;
         let count = |why: Closed| closed.iter().filter(|(_, it)| *it == why).count();
         let reasons = [
             (Closed::BySurface, "a solid surface is right behind it"),

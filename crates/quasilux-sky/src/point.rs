@@ -12,6 +12,10 @@ pub struct SkyPoint {
 }
 
 impl SkyPoint {
+    /// The altitude of the sun at the end of civil twilight: by then the sky has less than a
+    /// ten-thousandth of a day's light.
+    pub const NIGHT_DEG: f64 = -6.0;
+
     /// The unit vector towards it: x east, y north, z up.
     #[must_use]
     pub fn to_direction(self) -> [f64; 3] {

@@ -153,7 +153,13 @@ fn lamps_that_cannot_be() {
             Check::LampBright,
             "0.8",
         ),
-        of_file("1000 lm/W", efficient, Check::LampBright, "dimming"),
+        of_file("1000 lm/W", efficient, Check::LampBright, "watts"),
+        lamp(
+            "the second of one file dimmed to a hundred times",
+            Case::new().say(SECOND_LAMP, "position = [4.5, 2, 2.7]\ndimming = 100"),
+            Check::LampBright,
+            "0.8",
+        ),
         Wrong {
             name: "two points at one place",
             case: Case::new().add(&points),

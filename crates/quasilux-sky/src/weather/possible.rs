@@ -5,13 +5,11 @@ use super::{Weather, WeatherHour, WeatherLight, WeatherUnits};
 use crate::error::SkyError;
 use crate::local_time::LocalTime;
 use crate::perez::{SOLAR_CONSTANT_W_M2, eccentricity};
+use crate::point::SkyPoint;
 use libm::{pow, sin};
 
 /// More than the efficacy of any daylight, in lm/W.
 const MAX_LM_W: f64 = 160.0;
-
-/// The end of civil twilight: by then the sky has less than a ten-thousandth of a day's light.
-const NIGHT_DEG: f64 = -6.0;
 
 /// Sun and limits of an interval.
 pub(super) struct Possible {
@@ -49,7 +47,7 @@ impl Possible {
 
     /// Whether the sky is dark whatever the weather.
     pub(super) fn is_night(&self) -> bool {
-        self.altitude_deg < NIGHT_DEG
+        self.altitude_deg < SkyPoint::NIGHT_DEG
     }
 
     /// The sine of the sun's altitude, not below 0.

@@ -5,8 +5,7 @@ use crate::environment::{SkyFacts, SkyModel};
 use crate::project::{OutsideEntry, OutsideLight, OutsidePlaces, Project};
 use quasilux_sky::{Site, Sky, SkyPoint};
 
-/// The end of civil twilight, and the light of the sky there.
-const NIGHT_DEG: f64 = -6.0;
+/// More than the sky gives at the end of civil twilight.
 const TWILIGHT_LX: f64 = 10.0;
 /// CIE skies that are so thick with clouds that no sun is seen through them.
 const OVERCAST: [u8; 6] = [1, 2, 3, 4, 5, 16];
@@ -42,7 +41,7 @@ fn odd_clock(site: &Site) -> Option<String> {
 
 fn odd_sky(sky: &Sky, sun: SkyPoint) -> Option<String> {
     let lx = sky.horizontal_illuminance_lx();
-    (sun.altitude_deg < NIGHT_DEG && lx > TWILIGHT_LX).then(|| {
+    (sun.altitude_deg < SkyPoint::NIGHT_DEG && lx > TWILIGHT_LX).then(|| {
         format!(
             "the sky gives {lx:.0} lx with the sun {:.0} degrees below the horizon; expected a \
              time of the day, by the clock of the site",
