@@ -15,7 +15,42 @@ pub enum SimdLevel {
     Avx512,
 }
 
+/// Asks for one of [`SimdLevel::all`] by its name, for tests: no result depends on it.
+const VARIABLE: &str = "QUASILUX_KERNEL";
+
 impl SimdLevel {
+    /// That which the environment variable `QUASILUX_KERNEL` names, or where it is not set or
+    /// empty the fastest.
+    ///
+    /// # Errors
+    /// In words, where it names none that this machine can run.
+    pub fn chosen() -> Result<Self, String> {
+        match std::env::var_os(VARIABLE) {
+            Some(name) if !name.is_empty() => Self::named(&name.to_string_lossy()),
+            _ => Ok(Self::fastest()),
+        }
+    }
+
+    fn named(name: &str) -> Result<Self, String> {
+        let all = Self::all();
+        all.iter().copied().find(|level| level.name() == name).ok_or_else(|| {
+            let names: Vec<&str> = all.into_iter().map(Self::name).collect();
+            format!("{VARIABLE} is {name:?}; expected one of {}, or nothing", names.join(", "))
+        })
+    }
+
+    /// What it is called: `portable`, `avx2` or `avx512`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Portable => "portable",
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx2 => "avx2",
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx512 => "avx512",
+        }
+    }
+
     /// The fastest one on this machine: [`Self::Avx512`] was as fast as [`Self::Avx2`] on an AMD
     /// EPYC that has both (0.95 to 1.08 times, `docs/speed.md`).
     #[must_use]
@@ -75,4 +110,18 @@ unsafe fn run_avx2<E: SimdTask>(task: E) -> E::Result {
 #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
 unsafe fn run_avx512<E: SimdTask>(task: E) -> E::Result {
     task.run::<crate::lanes::Avx512>()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_is_found_by_its_name_and_no_other() {
+        for level in SimdLevel::all() {
+            assert_eq!(SimdLevel::named(level.name()), Ok(level));
+        }
+        let refusal = SimdLevel::named("sse9").unwrap_err();
+        assert!(refusal.contains("\"sse9\"; expected one of portable"), "{refusal}");
+    }
 }

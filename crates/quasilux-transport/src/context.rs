@@ -158,7 +158,8 @@ impl Stream {
 
 impl<'a, S: Spectrum> Context<'a, S> {
     pub(crate) fn new(scene: impl Into<PreparedScene<'a>>, settings: &'a Settings) -> Self {
-        Self::on(SimdLevel::fastest(), scene, settings)
+        let simd = SimdLevel::chosen().unwrap_or_else(|_| SimdLevel::fastest());
+        Self::on(simd, scene, settings)
     }
 
     /// The same for a ray kernel of choice: no result depends on it.

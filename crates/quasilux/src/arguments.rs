@@ -24,16 +24,18 @@ pub(crate) use sky::{Days, SkyArguments};
 use clap::builder::{PossibleValue, PossibleValuesParser};
 use clap::{Args, CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
+use quasilux_bvh::SimdLevel;
 use quasilux_experiments::{EXPERIMENTS, Experiment};
 use quasilux_sampling::Sequence;
 use quasilux_transport::{EstimatorKind, IntervalKind, ToleranceOn, UnseenTolerance};
 use std::path::PathBuf;
+use std::sync::LazyLock;
 use std::time::Duration;
 use values::{duration, illuminance, level, one_of, share, unseen_tolerance, whole};
 
 /// How many lux, and how sure: a lighting simulator.
 #[derive(Debug, Parser)]
-#[command(version, about, arg_required_else_help = true)]
+#[command(version, long_version = kernels(), about, arg_required_else_help = true)]
 pub(crate) struct Arguments {
     #[command(subcommand)]
     pub(crate) command: Command,
@@ -73,6 +75,17 @@ pub(crate) enum Command {
     Completions(CompletionsArguments),
     /// Print a page of the manual in roff, for `man`
     Man(ManArguments),
+}
+
+/// The version, and which kernel traces rays here.
+fn kernels() -> &'static str {
+    static KERNELS: LazyLock<String> = LazyLock::new(|| {
+        let names: Vec<&str> = SimdLevel::all().into_iter().map(SimdLevel::name).collect();
+        let chosen = SimdLevel::chosen().map_or("none", SimdLevel::name);
+        let version = env!("CARGO_PKG_VERSION");
+        format!("{version}\nray kernel: {chosen}, of {} on this machine", names.join(", "))
+    });
+    &KERNELS
 }
 
 impl Arguments {

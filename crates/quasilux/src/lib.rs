@@ -38,6 +38,7 @@ use clap::Parser;
 use exit::CliError;
 pub use exit::Exit;
 use print::tell;
+use quasilux_bvh::SimdLevel;
 use std::ffi::OsString;
 use std::io::{self, ErrorKind, Write};
 
@@ -47,6 +48,9 @@ pub fn command_line(words: impl IntoIterator<Item = OsString>) -> Exit {
         Ok(arguments) => arguments,
         Err(message) => return explain(&message),
     };
+    if let Err(refusal) = SimdLevel::chosen() {
+        return refuse(&CliError::new(refusal));
+    }
     let outcome = match arguments.command {
         Command::Run(arguments) => commands::run(&arguments),
         Command::Validate(arguments) => commands::validate(&arguments),

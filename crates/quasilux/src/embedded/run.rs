@@ -11,6 +11,7 @@ use crate::results::{self, ResultFile};
 use crate::source::from_the_root;
 use crate::watcher::{Listener, Watcher};
 use clap::Parser;
+use quasilux_bvh::SimdLevel;
 use quasilux_report::PictureOf;
 use quasilux_transport::{PreparedScene, Settings};
 use std::ffi::OsString;
@@ -25,8 +26,10 @@ impl Order {
     /// and what is printed is not asked of such a run.
     ///
     /// # Errors
-    /// When an option is unknown or its value makes no sense, in the words of the command line.
+    /// When an option is unknown or its value makes no sense, in the words of the command line; or
+    /// when `QUASILUX_KERNEL` names no ray kernel of this machine.
     pub fn from_words(words: impl IntoIterator<Item = OsString>) -> Result<Self, CliError> {
+        SimdLevel::chosen().map_err(CliError::new)?;
         match parse("run", Path::new("scene"), words)? {
             Command::Run(arguments) => Ok(Self(arguments)),
             _ => Err(CliError::new("no run")),

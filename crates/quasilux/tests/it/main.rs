@@ -19,6 +19,7 @@ mod explain;
 mod fingerprint;
 mod glazing;
 mod kept;
+mod kernels;
 mod limits;
 mod manuals;
 #[cfg(target_os = "linux")]
