@@ -47,7 +47,8 @@ pub use sun::{SUN_RADIUS_DEG, Site, solid_angle_of_the_sun_sr, sun_luminance_cd_
 pub use tabulated::TabulatedSky;
 
 pub use weather::{
-    ParsedWeather, Weather, WeatherHour, WeatherLight, WeatherSky, WeatherUnits, WeatherWarning,
+    ParsedWeather, Weather, WeatherHour, WeatherLight, WeatherMoment, WeatherSky, WeatherTimeError,
+    WeatherUnits, WeatherWarning,
 };
 
 /// Tests the example of the README.

@@ -7,7 +7,10 @@ use crate::environment::{Environment, SkyFacts, SkyModel, Sun};
 use crate::geometry::read_file;
 use crate::project::{OutsideEntry, OutsideLight, PanoramaEntry, Project, WeatherEntry};
 use crate::{FileKind, Files, LoadError, Spanned, Warning};
-use quasilux_sky::{Distribution, LocalTime, Panorama, Site, Sky, SkyLevel, Weather, WeatherSky};
+use quasilux_sky::{
+    Distribution, LocalTime, Panorama, Site, Sky, SkyLevel, Weather, WeatherMoment,
+    WeatherTimeError,
+};
 
 /// Most degrees that the site of a project and that of its weather file may be apart in latitude
 /// and in longitude: no more than they are rounded.
@@ -124,43 +127,17 @@ fn of_weather(
     Ok(Light { sky, sun, facts, weather: Some(weather) })
 }
 
-/// The interval of a time.
-struct Moment {
-    /// The middle of it.
-    middle: LocalTime,
-    /// `None` where nothing shines.
-    light: Option<WeatherSky>,
-}
-
+/// What the file says of a time.
 fn moment(
     project: &Project,
     weather: &Weather,
     file: &str,
     time: &Spanned<LocalTime>,
-) -> Result<Moment, LoadError> {
-    let refuse = |message: String| project.error(time.place, message);
-    let at = &time.value;
-    let number = weather.interval_at(at.month(), at.day(), at.seconds());
-    let Some(hour) = number.and_then(|number| weather.hours.get(number)) else {
-        let (month, day, minutes) = (at.month(), at.day(), at.seconds() / 60.0);
-        let message = format!(
-            "\"{file}\" has no interval with {month:02}-{day:02} {:02}:{:02} in it; expected a \
-             time of the file, by the clock of its site (the year does not matter)",
-            (minutes / 60.0) as u32,
-            (minutes % 60.0) as u32
-        );
-        return Err(refuse(message));
-    };
-    if hour.light.is_none() {
-        let message = format!(
-            "\"{file}\" has no direct or no diffuse light for this time; expected a time whose \
-             light was measured"
-        );
-        return Err(refuse(message));
-    }
-    let of_file = |error: quasilux_sky::SkyError| LoadError::new(file, None, error.to_string());
-    let middle = weather.time_of(hour).map_err(of_file)?;
-    Ok(Moment { middle, light: weather.sky_of(hour).map_err(of_file)? })
+) -> Result<WeatherMoment, LoadError> {
+    weather.moment_at(&time.value).map_err(|error| match error {
+        WeatherTimeError::Sky(error) => LoadError::new(file, None, error.to_string()),
+        lack => project.error(time.place, format!("\"{file}\" has {lack}")),
+    })
 }
 
 /// Refuses a site that is not the one of the weather file.

@@ -8,6 +8,7 @@ mod dark_hours;
 mod epw;
 mod interval;
 mod light;
+mod moment;
 mod odd;
 mod possible;
 mod row;
@@ -18,6 +19,7 @@ use quasilux_text::{ParseError, Position, TextWarning, Warning, Warnings, decode
 use row::Row;
 
 pub use light::WeatherSky;
+pub use moment::{WeatherMoment, WeatherTimeError};
 
 /// A weather file.
 #[derive(Clone, Debug, PartialEq)]

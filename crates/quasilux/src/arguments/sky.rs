@@ -2,13 +2,16 @@
 
 use super::values::whole;
 use clap::Args;
-use quasilux_sky::{LocalTime, Site};
+use quasilux_sky::{LocalTime, Site, SkyError};
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 pub(crate) struct SkyArguments {
-    /// The project file; without one, --type or --site say what is outside
-    #[arg(required_unless_present_any = ["cie", "site"], conflicts_with_all = ["cie", "site"])]
+    /// The project file; without one, --type, --weather or --site say what is outside
+    #[arg(
+        required_unless_present_any = ["cie", "site", "weather"],
+        conflicts_with_all = ["cie", "site", "weather"],
+    )]
     pub(crate) project: Option<PathBuf>,
     /// The CIE standard general sky of this number, or with 16 the traditional overcast sky
     #[arg(long = "type", value_name = "N", value_parser = whole::<u8>(1..=16))]
@@ -40,6 +43,13 @@ pub(crate) struct SkyArguments {
         value_parser = super::values::illuminance,
     )]
     pub(crate) lx: f64,
+    /// What shines by a weather file, EPW or WEA, with the sun's disk, at --time
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["cie", "site"])]
+    pub(crate) weather: Option<PathBuf>,
+    /// A time of the weather file by the clock of its site, like 2026-03-20T12:30; the year does
+    /// not matter
+    #[arg(long, value_name = "TIME", requires = "weather", value_parser = time)]
+    pub(crate) time: Option<LocalTime>,
     /// Where on the earth: degrees north, degrees east and the clock's hours ahead of Greenwich
     #[arg(
         long,
@@ -79,6 +89,10 @@ fn days(text: &str) -> Result<Days, String> {
     let year = u32::try_from(first.year()).map_err(|_| expected())?;
     let day = |month| [year, month, first.day()];
     Ok(Days(if is_year { (1..=12).map(day).collect() } else { vec![day(first.month())] }))
+}
+
+fn time(text: &str) -> Result<LocalTime, String> {
+    text.parse().map_err(|error: SkyError| format!("expected {}", error.expected))
 }
 
 fn site(text: &str) -> Result<Site, String> {

@@ -78,3 +78,31 @@ fn years_and_nights_are_refused_where_no_lamp_shines() {
     assert!(matches!(lit.code, Some(0 | 3)), "{}", lit.stderr);
     assert!(lit.stdout.contains("nothing shines at this time in \"site.wea\""), "{}", lit.stdout);
 }
+
+/// A weather file needs no project: the light is that of the file, and its clock is the site's.
+#[test]
+fn a_weather_file_alone_says_what_shines_at_a_time() {
+    let folder = folder("weather_alone", "");
+    let sky = |more: &[&str]| folder.quasilux(&[&["sky", "--weather", "site.wea"], more].concat());
+    let shown = sky(&["--time", "2031-03-20T12:10", "--json"]);
+    assert_eq!(shown.code, Some(0), "{}", shown.stderr);
+    let document = parsed(&shown.stdout);
+    assert!((number(&document, "/sky/horizontal_illuminance_lx/sky") - 12000.0).abs() < 1e-6);
+    assert_eq!(number(&document, "/sky/sun/normal_illuminance_lx"), 60000.0);
+    assert_eq!(
+        (document["sky"]["file"].as_str(), document["sky"]["time"].as_str()),
+        (Some("site.wea"), Some("2002-03-20T12:30:00"))
+    );
+    let days = sky(&["--positions", "2026-03-20"]);
+    assert!(days.code == Some(0) && days.stdout.contains("2026-03-20"), "{}", days.stderr);
+    for (more, expected) in [
+        (&[][..], "site.wea: no time says of which interval; expected --time"),
+        (&["--time", "2026-03-20T20:00"], "site.wea: no interval with 03-20 20:00 in it"),
+        (&["--time", "2026-03-20T03:40"], "site.wea: nothing shines at 03-20 03:30:00"),
+        (&["--time", "noon"], "--time is \"noon\"; expected 2026-03-20T12:00:00"),
+    ] {
+        let refused = sky(more);
+        assert_eq!(refused.code, Some(2), "{more:?}");
+        assert!(refused.stderr.contains(expected), "{}", refused.stderr);
+    }
+}

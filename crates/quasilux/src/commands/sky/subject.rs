@@ -1,11 +1,13 @@
 //! What the command is about: the outside of a project, a CIE sky of the options, or a site alone.
 
 use crate::arguments::SkyArguments;
+use crate::commands::inputs::{Failure, bytes_of, name_of};
 use crate::exit::CliError;
 use crate::project;
-use quasilux_scene::{Environment, SkyFacts, SkyModel};
+use quasilux_scene::{Environment, FileKind, SkyFacts, SkyModel, Sun};
 use quasilux_sky::{
-    CieType, Distribution, Site, Sky, SkyError, SkyLevel, SkyPoint, sun_luminance_cd_m2,
+    CieType, Distribution, Site, Sky, SkyError, SkyLevel, SkyPoint, Weather, WeatherMoment,
+    sun_luminance_cd_m2,
 };
 use std::path::Path;
 
@@ -34,6 +36,9 @@ pub(super) struct ShownSky {
 
 impl Subject {
     pub(super) fn new(arguments: &SkyArguments) -> Result<Self, CliError> {
+        if let Some(path) = &arguments.weather {
+            return Self::of_weather(path, arguments);
+        }
         match (&arguments.project, arguments.cie) {
             (Some(path), _) => Self::of_project(path, arguments.positions.is_some()),
             (None, Some(number)) => {
@@ -74,6 +79,29 @@ impl Subject {
         Ok(Self { name, title, sky, site, warnings })
     }
 
+    /// What a weather file says of a time, with the disk of the sun.
+    fn of_weather(path: &Path, arguments: &SkyArguments) -> Result<Self, CliError> {
+        let file = name_of(path);
+        let refuse = |message: String| CliError::in_file(&file, None, message);
+        let read = bytes_of(path, FileKind::Weather)
+            .and_then(|bytes| Weather::parse(&bytes).map_err(|error| Failure::new(&file, &error)));
+        let read = read.map_err(CliError::new)?;
+        let site = Some(read.weather.site);
+        let warnings = read.warnings.iter().map(|warning| format!("{file}:{warning}")).collect();
+        let sky = match &arguments.time {
+            Some(time) => {
+                let moment = read.weather.moment_at(time);
+                Some(of_moment(&file, moment.map_err(|lack| refuse(lack.to_string()))?, site)?)
+            }
+            None if arguments.positions.is_some() => None,
+            None => {
+                let expected = "expected --time, like --time 2026-03-20T12:30";
+                return Err(refuse(format!("no time says of which interval; {expected}")));
+            }
+        };
+        Ok(Self { name: String::new(), title: file, sky, site, warnings })
+    }
+
     /// Where on the earth the sun is to be listed.
     pub(super) fn site_for_positions(&self) -> Result<Site, CliError> {
         self.site.ok_or_else(|| {
@@ -85,6 +113,29 @@ impl Subject {
             CliError::in_file(&self.name, None, message)
         })
     }
+}
+
+/// What shines in an interval of a weather file.
+fn of_moment(file: &str, moment: WeatherMoment, site: Option<Site>) -> Result<ShownSky, CliError> {
+    let Some(light) = moment.light else {
+        let middle = moment.middle.to_string().replacen('T', " ", 1);
+        let message = format!("nothing shines at {}; expected a time of the day", &middle[5..]);
+        return Err(CliError::in_file(file, None, message));
+    };
+    let model = SkyModel::Weather { file: file.to_owned() };
+    let facts = SkyFacts { model, site, time: Some(moment.middle), sun: Some(light.sun) };
+    let normal_illuminance_lx = light.sun_normal_illuminance_lx;
+    let sun = Sun { centre: light.sun, normal_illuminance_lx };
+    Ok(ShownSky {
+        environment: Environment {
+            sky: light.sky,
+            sun: Some(sun).filter(|_| normal_illuminance_lx > 0.0),
+            ground_reflectance: GROUND_REFLECTANCE,
+            north_deg: 0.0,
+            openings: Vec::new(),
+        },
+        facts,
+    })
 }
 
 /// A CIE sky; the inner error says that a sun is missing.
