@@ -9,6 +9,8 @@ use super::builder::MeshBuilder;
 use super::gltf_buffers;
 use super::gltf_primitive::{self, Target};
 use crate::{Files, LoadError, Rgb, Warning};
+use ::gltf::accessor::DataType;
+use ::gltf::json::accessor::GenericComponentType;
 use ::gltf::json::validation::Checked;
 use ::gltf::scene::Transform;
 use ::gltf::{Document, Gltf, Mesh, Node, Semantic};
@@ -17,10 +19,13 @@ use quasilux_text::Position;
 use std::collections::HashMap;
 use std::sync::Arc;
 
-/// Required extensions that change no geometry.
-const HARMLESS_EXTENSIONS: [&str; 7] = [
+/// Positions may be of integers.
+const QUANTIZATION: &str = "KHR_mesh_quantization";
+/// Required extensions that change no geometry, or that are read.
+const READABLE_EXTENSIONS: [&str; 8] = [
     "EXT_texture_webp",
     "KHR_lights_punctual",
+    QUANTIZATION,
     "KHR_texture_basisu",
     "KHR_texture_transform",
     "KHR_xmp_json_ld",
@@ -108,7 +113,7 @@ fn parse(file: &str, bytes: &[u8]) -> Result<Parsed, LoadError> {
             other => error(format!("not a valid glTF file: {other}")),
         })?;
     let mut json = document.into_json();
-    let required = |name: &&String| !HARMLESS_EXTENSIONS.contains(&name.as_str());
+    let required = |name: &&String| !READABLE_EXTENSIONS.contains(&name.as_str());
     if let Some(name) = json.extensions_required.iter().find(required) {
         let name: String = name.chars().take(60).collect();
         return Err(error(format!(
@@ -117,7 +122,7 @@ fn parse(file: &str, bytes: &[u8]) -> Result<Parsed, LoadError> {
         )));
     }
     json.extensions_required.clear();
-    check_position_indices(&json).map_err(error)?;
+    check_positions(&json).map_err(error)?;
     let document = Document::from_json(json).map_err(|e| match e {
         ::gltf::Error::Validation(faults) => match faults.first() {
             Some((path, fault)) => error(format!("not a valid glTF file: {path}: {fault}")),
@@ -128,16 +133,28 @@ fn parse(file: &str, bytes: &[u8]) -> Result<Parsed, LoadError> {
     Ok(Parsed { document, blob })
 }
 
-/// Checks that accessors of positions exist: the validation of `gltf` looks them up unchecked.
-fn check_position_indices(json: &::gltf::json::Root) -> Result<(), String> {
+/// Checks that accessors of positions exist, which the validation of `gltf` looks up unchecked, and
+/// that they are of floats unless the file says that they may be of integers.
+fn check_positions(json: &::gltf::json::Root) -> Result<(), String> {
     let key = Checked::Valid(Semantic::Positions);
+    let is_quantized = json.extensions_used.iter().any(|name| name == QUANTIZATION);
     for (index, mesh) in json.meshes.iter().enumerate() {
         let positions = mesh.primitives.iter().filter_map(|p| p.attributes.get(&key));
-        for accessor in positions.map(|accessor| accessor.value()) {
-            if accessor >= json.accessors.len() {
+        for number in positions.map(|accessor| accessor.value()) {
+            let Some(accessor) = json.accessors.get(number) else {
                 let count = json.accessors.len();
                 return Err(format!(
-                    "mesh {index} refers to accessor {accessor}, but the file has {count}"
+                    "mesh {index} refers to accessor {number}, but the file has {count}"
+                ));
+            };
+            let is_float = matches!(
+                accessor.component_type,
+                Checked::Valid(GenericComponentType(DataType::F32))
+            );
+            if !is_float && !is_quantized {
+                return Err(format!(
+                    "accessor {number} has positions of another type; expected 32-bit floats, or \
+                     the extension {QUANTIZATION}"
                 ));
             }
         }

@@ -1,34 +1,51 @@
 //! Numbers in glTF buffers, with every bound checked before the first is read.
 //!
-//! glTF 2.0 Specification (2021), section 3.6.2. Nothing is copied, so a count in a header costs
-//! nothing: the bytes behind it must exist.
+//! glTF 2.0 Specification (2021), sections 3.6.2 and 3.11 (integers for -1 to 1);
+//! `KHR_mesh_quantization` for positions of 8 and 16 bits. Nothing is copied, so a count in a
+//! header costs nothing: the bytes behind it must exist.
 
+use super::gltf_sparse::Replaced;
 use ::gltf::accessor::{DataType, Dimensions};
 use glam::DVec3;
 use std::sync::Arc;
 
-/// A view of numbers in a buffer; all elements lie within it.
+/// A view of vectors or single numbers in a buffer.
 #[derive(Debug)]
 pub(super) struct Accessor<'b> {
-    /// From the first element to the end of the buffer view.
+    /// `None` where all are 0 that are not replaced.
+    elements: Option<Elements<'b>>,
+    replaced: Option<Replaced<'b>>,
+    count: usize,
+    number: Number,
+}
+
+/// How numbers stand in bytes.
+#[derive(Clone, Copy, Debug)]
+struct Number {
+    data_type: DataType,
+    /// Whether whole numbers stand for 0 to 1 or -1 to 1.
+    is_normalized: bool,
+}
+
+/// Elements at equal distances; all of them lie within the bytes.
+#[derive(Debug)]
+pub(super) struct Elements<'b> {
     bytes: &'b [u8],
     stride: usize,
-    count: usize,
-    data_type: DataType,
 }
 
 impl<'b> Accessor<'b> {
-    /// Vertex positions: three 32-bit floats each.
+    /// Vertex positions: three 32-bit floats each, or three quantized numbers.
     pub(super) fn positions(
         accessor: &::gltf::Accessor<'_>,
         buffers: &'b [Arc<Vec<u8>>],
     ) -> Result<Self, String> {
-        let kind = (accessor.data_type(), accessor.dimensions());
-        if kind != (DataType::F32, Dimensions::Vec3) {
-            let message = "has positions of another type; expected three 32-bit floats";
+        if accessor.dimensions() != Dimensions::Vec3 || accessor.data_type() == DataType::U32 {
+            let message = "has positions of another type; expected three floats, or three \
+                           integers of 8 or 16 bits";
             return Err(format!("accessor {} {message}", accessor.index()));
         }
-        Self::new(accessor, buffers, 12)
+        Self::new(accessor, buffers, 3 * accessor.data_type().size())
     }
 
     /// Vertex indices: unsigned integers of 8, 16 or 32 bits.
@@ -36,16 +53,12 @@ impl<'b> Accessor<'b> {
         accessor: &::gltf::Accessor<'_>,
         buffers: &'b [Arc<Vec<u8>>],
     ) -> Result<Self, String> {
-        let size = match (accessor.data_type(), accessor.dimensions()) {
-            (DataType::U8, Dimensions::Scalar) => 1,
-            (DataType::U16, Dimensions::Scalar) => 2,
-            (DataType::U32, Dimensions::Scalar) => 4,
-            _ => {
-                let message = "has indices of another type; expected unsigned integers";
-                return Err(format!("accessor {} {message}", accessor.index()));
-            }
-        };
-        Self::new(accessor, buffers, size)
+        let is_whole = matches!(accessor.data_type(), DataType::U8 | DataType::U16 | DataType::U32);
+        if accessor.dimensions() != Dimensions::Scalar || !is_whole {
+            let message = "has indices of another type; expected unsigned integers";
+            return Err(format!("accessor {} {message}", accessor.index()));
+        }
+        Self::new(accessor, buffers, accessor.data_type().size())
     }
 
     fn new(
@@ -53,38 +66,23 @@ impl<'b> Accessor<'b> {
         buffers: &'b [Arc<Vec<u8>>],
         size: usize,
     ) -> Result<Self, String> {
-        let index = accessor.index();
-        if accessor.sparse().is_some() {
-            return Err(format!("accessor {index} is sparse, which is not built"));
-        }
-        let view = accessor
-            .view()
-            .ok_or_else(|| format!("accessor {index} has no buffer view; expected one"))?;
+        let name = format!("accessor {}", accessor.index());
         let count = accessor.count();
-        let stride = view.stride().unwrap_or(size);
-        if stride < size {
-            return Err(format!(
-                "accessor {index} has a stride of {stride}; expected {size} or more"
-            ));
-        }
-        let data_type = accessor.data_type();
-        let bytes = buffers
-            .get(view.buffer().index())
-            .and_then(|buffer| buffer.get(view.offset()..)?.get(..view.length()))
-            .ok_or_else(|| format!("buffer view {} reaches beyond its buffer", view.index()))?;
-        let bytes = bytes.get(accessor.offset()..).unwrap_or_default();
-        let needed = match count.checked_sub(1) {
-            None => Some(0),
-            Some(steps) => stride.checked_mul(steps).and_then(|n| n.checked_add(size)),
+        let replaced = accessor.sparse().map(|sparse| Replaced::new(&name, &sparse, buffers, size));
+        let replaced = replaced.transpose()?;
+        let elements = match accessor.view() {
+            Some(view) => {
+                Some(Elements::new(&name, &view, accessor.offset(), buffers, [count, size])?)
+            }
+            None if replaced.is_some() => None,
+            None => return Err(format!("{name} has no buffer view; expected one")),
         };
-        if needed.is_none_or(|needed| needed > bytes.len()) {
-            return Err(format!(
-                "accessor {index} says {count} elements; expected no more than its buffer view \
-                 of {} bytes holds",
-                view.length()
-            ));
+        if replaced.as_ref().and_then(Replaced::highest).is_some_and(|highest| highest >= count) {
+            return Err(format!("{name} replaces elements beyond its {count}"));
         }
-        Ok(Self { bytes, stride, count, data_type })
+        let number =
+            Number { data_type: accessor.data_type(), is_normalized: accessor.normalized() };
+        Ok(Self { elements, replaced, count, number })
     }
 
     pub(super) fn count(&self) -> usize {
@@ -96,22 +94,88 @@ impl<'b> Accessor<'b> {
         if i >= self.count {
             return None;
         }
-        let at = i * self.stride;
-        let coordinate = |axis: usize| f64::from(f32::from_le_bytes(self.word(at + 4 * axis)));
-        Some(DVec3::new(coordinate(0), coordinate(1), coordinate(2)))
+        let Some(bytes) = self.element(i) else { return Some(DVec3::ZERO) };
+        let size = self.number.data_type.size();
+        let [x, y, z] = [0, 1, 2].map(|axis| self.number.read(&bytes[axis * size..]));
+        Some(DVec3::new(x, y, z))
     }
 
     /// Index number `i`, which must be below the count.
     pub(super) fn index(&self, i: usize) -> usize {
-        let at = i * self.stride;
-        match self.data_type {
-            DataType::U8 => usize::from(self.bytes[at]),
-            DataType::U16 => usize::from(u16::from_le_bytes(self.word(at))),
-            _ => u32::from_le_bytes(self.word(at)) as usize,
-        }
+        self.element(i).map_or(0, |bytes| whole(bytes, self.number.data_type.size()))
     }
 
-    fn word<const N: usize>(&self, at: usize) -> [u8; N] {
-        std::array::from_fn(|byte| self.bytes[at + byte])
+    /// From its first byte on; `None` where it is 0.
+    fn element(&self, i: usize) -> Option<&'b [u8]> {
+        let replaced = self.replaced.as_ref().and_then(|replaced| replaced.element(i));
+        replaced.or_else(|| Some(self.elements.as_ref()?.element(i)))
     }
+}
+
+impl<'b> Elements<'b> {
+    /// Of a view of a buffer, from an offset on: so many elements of so many bytes.
+    pub(super) fn new(
+        name: &str,
+        view: &::gltf::buffer::View<'_>,
+        offset: usize,
+        buffers: &'b [Arc<Vec<u8>>],
+        [count, size]: [usize; 2],
+    ) -> Result<Self, String> {
+        let stride = view.stride().unwrap_or(size);
+        if stride < size {
+            return Err(format!("{name} has a stride of {stride}; expected {size} or more"));
+        }
+        let bytes = buffers
+            .get(view.buffer().index())
+            .and_then(|buffer| buffer.get(view.offset()..)?.get(..view.length()))
+            .ok_or_else(|| format!("buffer view {} reaches beyond its buffer", view.index()))?;
+        let bytes = bytes.get(offset..).unwrap_or_default();
+        let needed = match count.checked_sub(1) {
+            None => Some(0),
+            Some(steps) => stride.checked_mul(steps).and_then(|n| n.checked_add(size)),
+        };
+        if needed.is_none_or(|needed| needed > bytes.len()) {
+            return Err(format!(
+                "{name} says {count} elements; expected no more than its buffer view of {} bytes \
+                 holds",
+                view.length()
+            ));
+        }
+        Ok(Self { bytes, stride })
+    }
+
+    /// From the first byte of element `i` on, which must be below the count.
+    pub(super) fn element(&self, i: usize) -> &'b [u8] {
+        &self.bytes[i * self.stride..]
+    }
+}
+
+impl Number {
+    fn read(self, bytes: &[u8]) -> f64 {
+        let scaled = |value: f64, most: f64| match self.is_normalized {
+            true => (value / most).max(-1.0),
+            false => value,
+        };
+        match self.data_type {
+            DataType::I8 => scaled(f64::from(i8::from_le_bytes(first(bytes))), 127.0),
+            DataType::U8 => scaled(f64::from(bytes[0]), 255.0),
+            DataType::I16 => scaled(f64::from(i16::from_le_bytes(first(bytes))), 32767.0),
+            DataType::U16 => scaled(f64::from(u16::from_le_bytes(first(bytes))), 65535.0),
+            DataType::U32 => f64::from(u32::from_le_bytes(first(bytes))),
+            DataType::F32 => f64::from(f32::from_le_bytes(first(bytes))),
+        }
+    }
+}
+
+/// An unsigned integer of 1, 2 or 4 bytes.
+pub(super) fn whole(bytes: &[u8], size: usize) -> usize {
+    match size {
+        1 => usize::from(bytes[0]),
+        2 => usize::from(u16::from_le_bytes(first(bytes))),
+        _ => u32::from_le_bytes(first(bytes)) as usize,
+    }
+}
+
+fn first<const N: usize>(bytes: &[u8]) -> [u8; N] {
+    std::array::from_fn(|byte| bytes[byte])
 }

@@ -12,6 +12,7 @@ mod gltf;
 mod gltf_accessor;
 mod gltf_buffers;
 mod gltf_primitive;
+mod gltf_sparse;
 mod mtl;
 mod obj;
 mod obj_lines;

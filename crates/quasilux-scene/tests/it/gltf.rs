@@ -142,7 +142,7 @@ fn what_lies_or_is_not_built_is_refused() {
         ("\"count\": 4", "\"count\": 3", "refers to vertex 3, but has 3"),
         ("\"count\": 4", "\"byteOffset\": 18446744073709551615, \"count\": 4", "accessor 0 says"),
         ("\"POSITION\": 0", "\"POSITION\": 2", "mesh 0 refers to accessor 2, but the file has 2"),
-        ("5126", "5123", "expected three 32-bit floats"),
+        ("5126", "5123", "expected 32-bit floats, or the extension KHR_mesh_quantization"),
         ("5123", "5126", "expected unsigned integers"),
         ("{\"mesh\": 0, \"scale\"", "{\"children\": [0], \"scale\"", "node 0 has two parents"),
         ("[1, 2]", "[1, 1]", "node 1 has two parents"),
@@ -153,12 +153,6 @@ fn what_lies_or_is_not_built_is_refused() {
             "\"2.0\"}",
             "\"2.0\"}, \"extensionsRequired\": [\"KHR_draco_mesh_compression\"]",
             "requires the extension \"KHR_draco_mesh_compression\"",
-        ),
-        (
-            "\"count\": 6",
-            "\"count\": 6, \"sparse\": {\"count\": 1, \"indices\": {\"bufferView\": 1, \
-             \"componentType\": 5123}, \"values\": {\"bufferView\": 1}}",
-            "is sparse",
         ),
         ("\"bufferView\": 1,", "", "accessors[1].bufferView: Missing data"),
         ("square%20mesh.bin", "none.bin", "cannot read the buffer \"models/none.bin\""),
@@ -222,4 +216,79 @@ fn strips_fans_and_primitives_without_indices() {
     let json = SQUARE.replace(", \"indices\": 1", "");
     let mesh = load_geometry("models/room.gltf", &files().with("models/room.gltf", json));
     assert_eq!(mesh.unwrap().scene.mesh.triangles.len(), 2);
+}
+
+/// Sparse accessors [3.6.2.3]: positions and indices that replace others, or nothing at all.
+#[test]
+fn sparse_accessors_replace_elements() {
+    let whole = load_geometry("models/room.gltf", &files()).unwrap().scene.mesh;
+    let sparse = |numbers: [u8; 4], more: &str, base: &str| {
+        // The corners stand rolled by one; three views follow: numbers, positions, and indices.
+        let corner = |i: usize| square_bytes()[12 * i..12 * i + 12].to_vec();
+        let mut bytes = square_bytes();
+        bytes.splice(..12, corner(1));
+        bytes.extend(numbers);
+        bytes.extend([corner(0), corner(1), corner(2), corner(3)].concat());
+        let json = SQUARE
+            .replace("\"byteLength\": 60", "\"byteLength\": 112")
+            .replace(
+                "\"byteOffset\": 48, \"byteLength\": 12}",
+                "\"byteOffset\": 48, \"byteLength\": 12}, {\"buffer\": 0, \"byteOffset\": 60, \
+                 \"byteLength\": 4}, {\"buffer\": 0, \"byteOffset\": 64, \"byteLength\": 48}",
+            )
+            .replace("{\"bufferView\": 0,", base)
+            .replace(
+                "\"count\": 4,",
+                &format!(
+                    "\"count\": 4, \"sparse\": {{{more}, \"indices\": {{\"bufferView\": 2, \
+                     \"componentType\": 5121}}, \"values\": {{\"bufferView\": 3}}}},"
+                ),
+            );
+        let files = files().with("models/room.gltf", json).with("models/square mesh.bin", bytes);
+        load_geometry("models/room.gltf", &files).map(|loaded| loaded.scene.mesh)
+    };
+    let based = "{\"bufferView\": 0,";
+    assert_eq!(sparse([0, 9, 9, 9], "\"count\": 1", based).unwrap(), whole);
+    assert_eq!(sparse([0, 1, 2, 3], "\"count\": 4", "{").unwrap(), whole);
+    for (numbers, more, needle) in [
+        ([0, 1, 2, 4], "\"count\": 4", "accessor 0 replaces elements beyond its 4"),
+        ([0, 2, 2, 3], "\"count\": 4", "not in rising order"),
+        ([0, 1, 2, 3], "\"count\": 5", "the list of replaced numbers says 5 elements"),
+    ] {
+        let error = sparse(numbers, more, based).unwrap_err().to_string();
+        assert!(error.contains(needle), "no {needle:?} in: {error}");
+    }
+}
+
+/// Integers of 8 and 16 bits, as they are or for -1 to 1 (`KHR_mesh_quantization`).
+#[test]
+fn quantized_positions_are_read() {
+    let whole = load_geometry("models/room.gltf", &files()).unwrap().scene.mesh;
+    let corners = [[0, 0, 0], [1, 0, 0], [1, 0, -1], [0, 0, -1]];
+    for (component, size, normalized, one) in
+        [(5120, 1, false, 1_i16), (5120, 1, true, 127), (5122, 2, false, 1), (5122, 2, true, 32767)]
+    {
+        let mut bytes: Vec<u8> = Vec::new();
+        for corner in corners {
+            let numbers = corner.map(|x| (x * one).to_le_bytes());
+            bytes.extend(numbers.iter().flat_map(|number| &number[..size]));
+            bytes.resize(bytes.len().next_multiple_of(4 * size), 0xAA);
+        }
+        bytes.resize(48, 0);
+        bytes.extend(&square_bytes()[48..]);
+        let json = SQUARE
+            .replace("5126", &format!("{component}, \"normalized\": {normalized}"))
+            .replace(
+                "\"byteLength\": 48}",
+                &format!("\"byteLength\": 48, \"byteStride\": {}}}", 4 * size),
+            )
+            .replace(
+                "\"2.0\"}",
+                "\"2.0\"}, \"extensionsUsed\": [\"KHR_mesh_quantization\"], \
+                 \"extensionsRequired\": [\"KHR_mesh_quantization\"]",
+            );
+        let files = files().with("models/room.gltf", json).with("models/square mesh.bin", bytes);
+        let found = load_geometry("models/room.gltf", &files).unwrap().scene.mesh;
+        assert_eq!(found, whole, "{component} {normalized}");
+    }
 }
