@@ -1,35 +1,58 @@
 //! What changes in a room over a year of hours: blinds, and electric light that daylight dims.
 
-use crate::Scene;
+use crate::{Mesh, Scene};
 
-/// Blinds, drawn or not: two states of one room.
+/// Blinds: groups of them, each of which moves by itself.
 #[derive(Clone, Debug)]
 pub struct Blinds {
-    /// The scene while they are closed. It has the sensors of the other, in the same order.
-    pub closed: Scene,
-    /// When they are.
+    /// The groups, in the order of the project file.
+    pub groups: Vec<BlindsGroup>,
+}
+
+/// Blinds that move together.
+#[derive(Clone, Debug)]
+pub struct BlindsGroup {
+    /// Their name; `blinds` where a project that has one group gives none.
+    pub name: String,
+    /// Where they may be other than open, the last the one that they close to.
+    pub positions: Vec<BlindsPosition>,
+    /// When they are where.
     pub control: BlindsControl,
 }
 
-/// When blinds are closed.
+/// A position of blinds.
+#[derive(Clone, Debug)]
+pub struct BlindsPosition {
+    /// Its name.
+    pub name: String,
+    /// The room with the group there and all others open. It has the sensors of the open room, in
+    /// the same order, and its triangles and materials before any others.
+    pub room: Scene,
+}
+
+/// When blinds are where. Positions are numbered: 0 is open, 1 the first of the group's.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum BlindsControl {
-    /// While more than 2 % of the points of a sensor get more than 1000 lx straight from the sun
-    /// through open blinds (IES LM-83); of all sensors together without a number.
+    /// The first position in which at most 2 % of the points of a sensor get more than 1000 lx
+    /// straight from the sun through the group (IES LM-83); of all sensors together without a
+    /// number.
     Sunlight {
         /// The number of the sensor.
         sensor: Option<usize>,
     },
     /// Said for each interval of the weather file.
     Schedule {
-        /// Whether they are closed.
-        is_closed: Vec<bool>,
+        /// The numbers of the positions.
+        positions: Vec<usize>,
     },
 }
 
 /// Electric light that brings a sensor to its target where daylight does not.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct ElectricLight {
+    /// The name of the zone that it lights; `electric_light` where a project that has one gives
+    /// none.
+    pub name: String,
     /// The number of the sensor whose average counts.
     pub sensor: usize,
     /// The illuminance that it is to have, in lx: at full power the lamps give it alone.
@@ -38,4 +61,53 @@ pub struct ElectricLight {
     pub power_w: f64,
     /// In W while people are there, however much daylight there is.
     pub min_power_w: f64,
+}
+
+impl Blinds {
+    /// The room with its groups in these positions, by number; `open` is the room with all of them
+    /// open.
+    #[must_use]
+    pub fn room(&self, open: &Scene, positions: &[usize]) -> Scene {
+        let mut room = open.clone();
+        for (group, number) in self.groups.iter().zip(positions) {
+            let position = number.checked_sub(1).and_then(|number| group.positions.get(number));
+            position.into_iter().for_each(|position| add(&mut room, open, &position.room));
+        }
+        room
+    }
+}
+
+/// Puts what another room has beside the open one into a room that has the open one's parts first.
+fn add(room: &mut Scene, open: &Scene, other: &Scene) {
+    for (number, material) in other.materials.iter().enumerate() {
+        match open.materials.get(number) {
+            Some(before) if before != material => room.materials[number] = material.clone(),
+            _ => {}
+        }
+    }
+    let own = open.materials.len();
+    let mut material_of: Vec<u32> = (0..own as u32).collect();
+    for material in other.materials.iter().skip(own) {
+        let known = room.materials.iter().position(|known| known == material);
+        material_of.push(known.unwrap_or(room.materials.len()) as u32);
+        if known.is_none() {
+            room.materials.push(material.clone());
+        }
+    }
+    let (to, from, before) = (&mut room.mesh, &other.mesh, &open.mesh);
+    let behind = |to: usize, before: usize, index: u32| match index as usize {
+        index if index < before => index as u32,
+        index => (index - before + to) as u32,
+    };
+    let (vertices, objects) = (to.positions.len(), to.objects.len());
+    let first = before.triangles.len();
+    let Mesh { triangles, material_of: materials, object_of, .. } = from;
+    let corners = triangles[first..].iter();
+    to.triangles
+        .extend(corners.map(|it| it.map(|it| behind(vertices, before.positions.len(), it))));
+    to.material_of.extend(materials[first..].iter().map(|it| material_of[*it as usize]));
+    to.object_of
+        .extend(object_of[first..].iter().map(|it| behind(objects, before.objects.len(), *it)));
+    to.positions.extend_from_slice(&from.positions[before.positions.len()..]);
+    to.objects.extend_from_slice(&from.objects[before.objects.len()..]);
 }

@@ -25,7 +25,7 @@ pub mod scene;
 pub mod sensor;
 pub mod solids;
 
-pub use annual::{Blinds, BlindsControl, ElectricLight};
+pub use annual::{Blinds, BlindsControl, BlindsGroup, BlindsPosition, ElectricLight};
 pub use bsdf::Bsdf;
 pub use camera::{Camera, View};
 pub use environment::{Environment, Opening, SkyFacts, SkyModel, Sun};

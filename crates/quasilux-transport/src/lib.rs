@@ -50,8 +50,8 @@ mod stats;
 mod world;
 
 pub use annual::{
-    ClosedHours, PointOfYear, YearHours, YearObserver, YearProgress, YearRun, YearWork, seen_suns,
-    simulate_year, sunlit_points,
+    OtherRoom, PointOfYear, Sunlight, YearHours, YearObserver, YearProgress, YearRun, YearWork,
+    seen_suns, simulate_year, sunlit_points,
 };
 pub use bsdf::Scattering;
 pub use codec::StateError;

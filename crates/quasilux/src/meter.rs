@@ -40,13 +40,17 @@ impl Meter {
     /// Counts steps.
     pub(crate) fn add(&self, steps: u64) {
         let done = self.done.fetch_add(steps, Ordering::Relaxed) + steps;
+        self.show((done as f64 / self.total.max(1) as f64).min(1.0));
+    }
+
+    /// Shows the share of the job that is done, now and then.
+    pub(crate) fn show(&self, share: f64) {
         // Whoever finds another one at it has nothing to add.
         let Ok(mut shown) = self.shown.try_lock() else { return };
         if shown.elapsed() < EVERY {
             return;
         }
         *shown = Instant::now();
-        let share = (done as f64 / self.total.max(1) as f64).min(1.0);
         let news = news(share, self.start.elapsed().as_secs_f64());
         self.bar.set_position((share * STEPS as f64) as u64);
         if let Some(heartbeat) = &self.heartbeat {

@@ -40,6 +40,11 @@ pub fn annual_csv(of: SensorPoints<'_>) -> String {
 pub fn hours_csv(report: &AnnualReport<'_>) -> String {
     let names =
         report.scene.sensors.iter().map(|sensor| format!("{}_mean_lx", quoted(&sensor.name)));
+    let groups = report.blinds.as_ref().map_or(&[][..], |blinds| &blinds.groups);
+    let blinds = match groups {
+        [] | [_] => vec!["blinds_closed".to_owned()],
+        all => all.iter().map(|group| format!("{}_position", quoted(&group.name))).collect(),
+    };
     let columns = [
         "month",
         "day",
@@ -49,9 +54,9 @@ pub fn hours_csv(report: &AnnualReport<'_>) -> String {
         "sun_azimuth_deg",
         "sky_horizontal_lx",
         "sun_normal_lx",
-        "blinds_closed",
     ];
-    let columns: Vec<String> = columns.map(str::to_owned).into_iter().chain(names).collect();
+    let columns = columns.map(str::to_owned).into_iter().chain(blinds).chain(names);
+    let columns: Vec<String> = columns.collect();
     let mut text = columns.join(",") + "\n";
     for (number, interval) in report.calendar.intervals.iter().enumerate() {
         let sky = interval.sky.map(|sky| &report.calendar.skies[sky]);
@@ -61,8 +66,11 @@ pub fn hours_csv(report: &AnnualReport<'_>) -> String {
             sky.map(|it| it.sky.horizontal_illuminance_lx()),
             sky.map(|it| it.sun_normal_illuminance_lx),
         ];
-        let is_closed = |sky: usize| report.closed.as_ref().is_some_and(|closed| closed[sky]);
-        let blinds = interval.sky.map(|sky| u8::from(is_closed(sky)).to_string());
+        let position = |number: usize| {
+            let group = groups.get(number);
+            let of = |sky: usize| group.map_or(0, |group| group.by_hour[sky]);
+            interval.sky.map(|sky| of(sky).to_string()).unwrap_or_default()
+        };
         let inside = report.mean_lx.iter().map(|lx| interval.is_known.then_some(lx[number]));
         let mut fields = vec![
             interval.month.to_string(),
@@ -71,7 +79,7 @@ pub fn hours_csv(report: &AnnualReport<'_>) -> String {
             u8::from(interval.is_occupied).to_string(),
         ];
         fields.extend(outside.map(|x| x.map(exact).unwrap_or_default()));
-        fields.push(blinds.unwrap_or_default());
+        fields.extend((0..groups.len().max(1)).map(position));
         fields.extend(inside.map(|x| x.map(exact).unwrap_or_default()));
         text += &(fields.join(",") + "\n");
     }

@@ -27,6 +27,18 @@ pub struct EnergyOfYear {
     pub full_kwh: f64,
 }
 
+impl EnergyOfYear {
+    /// Of all zones together. What is not known of them may go the same way: half-widths add up.
+    #[must_use]
+    pub fn of_all(zones: &[Dimming], calendar: &Calendar) -> Self {
+        let all: Vec<Self> = zones.iter().map(|dimming| dimming.energy(calendar)).collect();
+        let value = all.iter().map(|energy| energy.dimmed_kwh.value).sum();
+        let half_width = all.iter().map(|energy| energy.dimmed_kwh.half_width).sum();
+        let full_kwh = all.iter().map(|energy| energy.full_kwh).sum();
+        Self { dimmed_kwh: Figure { value, half_width }, full_kwh }
+    }
+}
+
 impl Dimming {
     /// Without any daylight yet.
     #[must_use]

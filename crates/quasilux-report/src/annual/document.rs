@@ -5,7 +5,9 @@
 //! whose interval is on the right side of the threshold as a whole, `high` those whose interval
 //! reaches there.
 
-use super::dimming::Dimming;
+use super::blinds::{BlindsOfYear, GroupOfYear};
+use super::calendar::Calendar;
+use super::dimming::{Dimming, EnergyOfYear};
 use super::measures::Measure;
 use super::point::PointSummary;
 use super::report::{AnnualReport, AnnualRun, SensorPoints};
@@ -83,11 +85,8 @@ pub fn annual_json(report: &AnnualReport<'_>) -> String {
             "daylit": calendar.count(|it| it.is_daylit),
             "occupied_h": [report.occupied_h.start, report.occupied_h.end],
         }),
-        blinds: report.closed_intervals(|_| true).map(|closed| {
-            let occupied = report.closed_intervals(|interval| interval.is_occupied);
-            json!({ "closed": closed, "closed_occupied": occupied })
-        }),
-        electric_light: report.dimming.as_ref().map(|dimming| electric_light(report, dimming)),
+        blinds: report.blinds.as_ref().map(|blinds| blinds_entry(blinds, calendar)),
+        electric_light: electric_light(report),
         thresholds: json!({
             "enough_lx": report.thresholds.enough_lx,
             "useful_lx": report.thresholds.useful_lx,
@@ -99,19 +98,57 @@ pub fn annual_json(report: &AnnualReport<'_>) -> String {
     })
 }
 
-/// Electric light and its energy.
-fn electric_light(report: &AnnualReport<'_>, dimming: &Dimming) -> Value {
-    let light = dimming.light;
-    let energy = dimming.energy(report.calendar);
-    json!({
-        "sensor": report.scene.sensors[light.sensor].name,
-        "target_lx": light.target_lx,
-        "power_w": light.power_w,
-        "min_power_w": light.min_power_w,
-        "energy_kwh": energy.dimmed_kwh.value,
-        "energy_kwh_half_width": energy.dimmed_kwh.half_width,
-        "full_power_kwh": energy.full_kwh,
-    })
+/// Blinds: in how many intervals with light some are closed, and where each of several groups is.
+fn blinds_entry(blinds: &BlindsOfYear, calendar: &Calendar) -> Value {
+    let mut entry = json!({
+        "closed": blinds.closed(calendar, |_| true),
+        "closed_occupied": blinds.closed(calendar, |interval| interval.is_occupied),
+    });
+    let group = |group: &GroupOfYear| {
+        let position = |(number, name): (usize, &String)| {
+            json!({
+                "name": name,
+                "intervals": group.count(number, calendar, |_| true),
+                "occupied": group.count(number, calendar, |interval| interval.is_occupied),
+            })
+        };
+        let positions: Vec<Value> = group.positions.iter().enumerate().map(position).collect();
+        json!({ "name": group.name, "positions": positions })
+    };
+    entry["groups"] = blinds.groups.iter().map(group).collect();
+    entry
+}
+
+/// Electric light and its energy: of the one zone, or of all of them, and of each.
+fn electric_light(report: &AnnualReport<'_>) -> Option<Value> {
+    let zone = |dimming: &Dimming| {
+        let light = &dimming.light;
+        let energy = dimming.energy(report.calendar);
+        json!({
+            "name": light.name,
+            "sensor": report.scene.sensors[light.sensor].name,
+            "target_lx": light.target_lx,
+            "power_w": light.power_w,
+            "min_power_w": light.min_power_w,
+            "energy_kwh": energy.dimmed_kwh.value,
+            "energy_kwh_half_width": energy.dimmed_kwh.half_width,
+            "full_power_kwh": energy.full_kwh,
+        })
+    };
+    match report.dimmings.as_slice() {
+        [] => None,
+        [alone] => Some(zone(alone)),
+        all => {
+            let EnergyOfYear { dimmed_kwh, full_kwh } = EnergyOfYear::of_all(all, report.calendar);
+            let zones: Vec<Value> = all.iter().map(zone).collect();
+            Some(json!({
+                "energy_kwh": dimmed_kwh.value,
+                "energy_kwh_half_width": dimmed_kwh.half_width,
+                "full_power_kwh": full_kwh,
+                "zones": zones,
+            }))
+        }
+    }
 }
 
 /// What it was made of.

@@ -21,7 +21,7 @@ mod table;
 #[cfg(test)]
 mod tests;
 
-pub use blinds::closed_hours;
+pub use blinds::{BlindsOfYear, GroupOfYear, RoomOfYear};
 pub use calendar::{Calendar, Interval};
 pub use csv::{annual_csv, hours_csv};
 pub use dimming::{Dimming, EnergyOfYear};

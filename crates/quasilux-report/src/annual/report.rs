@@ -1,6 +1,7 @@
 //! All results of a year.
 
-use super::calendar::{Calendar, Interval};
+use super::blinds::BlindsOfYear;
+use super::calendar::Calendar;
 use super::dimming::Dimming;
 use super::equinox::EquinoxSheets;
 use super::measures::Thresholds;
@@ -57,10 +58,10 @@ pub struct AnnualReport<'a> {
     pub calendar: &'a Calendar,
     /// When people are there, in h of the clock.
     pub occupied_h: Range<f64>,
-    /// Whether blinds are closed, by hour of those with light; `None` where there are none.
-    pub closed: Option<Vec<bool>>,
-    /// Electric light that daylight dims.
-    pub dimming: Option<Dimming>,
+    /// Where blinds are; `None` where there are none.
+    pub blinds: Option<BlindsOfYear>,
+    /// Zones of electric light that daylight dims.
+    pub dimmings: Vec<Dimming>,
     /// What illuminances were compared with.
     pub thresholds: Thresholds,
     /// All points, through all sensors.
@@ -99,13 +100,6 @@ impl<'a> AnnualReport<'a> {
         self.run.work.is_complete && self.points.iter().all(|point| point.is_done)
     }
 
-    /// How many intervals of a kind have closed blinds; `None` where there are no blinds.
-    pub(super) fn closed_intervals(&self, is_of_kind: impl Fn(&Interval) -> bool) -> Option<usize> {
-        let closed = self.closed.as_ref()?;
-        let is_closed = |it: &Interval| it.sky.is_some_and(|sky| closed[sky]);
-        Some(self.calendar.count(|interval| is_closed(interval) && is_of_kind(interval)))
-    }
-
     /// A report without results, of a room without blinds and electric light.
     #[must_use]
     pub fn begin(
@@ -122,8 +116,8 @@ impl<'a> AnnualReport<'a> {
             site: weather.site,
             calendar,
             occupied_h,
-            closed: None,
-            dimming: None,
+            blinds: None,
+            dimmings: Vec::new(),
             thresholds: Thresholds::default(),
             points: Vec::new(),
             sun_hours: Vec::new(),
@@ -135,7 +129,7 @@ impl<'a> AnnualReport<'a> {
 
     /// Adds the next point.
     pub fn push(&mut self, point: &PointOfHours) {
-        if let Some(dimming) = &mut self.dimming {
+        for dimming in &mut self.dimmings {
             dimming.add(self.points.len(), &point.by_replicate, point.t);
         }
         self.equinox.push(point);

@@ -1,5 +1,7 @@
 //! The results of a year for a terminal.
 
+use super::blinds::GroupOfYear;
+use super::calendar::Calendar;
 use super::dimming::Dimming;
 use super::measures::Measure;
 use super::point::PointSummary;
@@ -28,15 +30,14 @@ pub fn annual_table(report: &AnnualReport<'_>) -> String {
     if unknown > 0 {
         write!(text, ", {} unknown and left out", count(unknown as u64)).expect("strings grow");
     }
-    if let Some(closed) = report.closed_intervals(|interval| interval.is_occupied) {
-        let closed = count(closed as u64);
-        write!(text, "; blinds closed in {closed} of the occupied").expect("strings grow");
+    for group in report.blinds.iter().flat_map(|blinds| &blinds.groups) {
+        write_group(&mut text, group, calendar);
     }
     text.push_str("\n\n");
     for (SensorPoints { sensor, points, .. }, summary) in report.sensors().zip(report.summaries()) {
         write_sensor(&mut text, &sensor.name, points, &summary);
     }
-    if let Some(dimming) = &report.dimming {
+    for dimming in &report.dimmings {
         write_electric_light(&mut text, report, dimming);
     }
     let worst = report.points.iter().filter_map(|point| point.relative_half_width);
@@ -61,15 +62,29 @@ pub fn annual_table(report: &AnnualReport<'_>) -> String {
     text
 }
 
+/// Where blinds are in the occupied intervals.
+fn write_group(text: &mut String, group: &GroupOfYear, calendar: &Calendar) {
+    write!(text, "; {}", group.name).expect("strings grow");
+    for (number, name) in group.positions.iter().enumerate().skip(1) {
+        let intervals = group.count(number, calendar, |interval| interval.is_occupied);
+        let comma = if number == 1 { "" } else { "," };
+        let intervals = count(intervals as u64);
+        write!(text, "{comma} {name} in {intervals} of the occupied").expect("strings grow");
+    }
+}
+
 fn write_electric_light(text: &mut String, report: &AnnualReport<'_>, dimming: &Dimming) {
     let energy = dimming.energy(report.calendar);
     let dimmed = figure_text(energy.dimmed_kwh).joined();
-    let light = dimming.light;
+    let light = &dimming.light;
     writeln!(
         text,
-        "electric light: {dimmed} kWh a year, dimmed by the daylight of {} to {} lx; {:.0} kWh at \
+        "{}: {dimmed} kWh a year, dimmed by the daylight of {} to {} lx; {:.0} kWh at \
          full power\n",
-        report.scene.sensors[light.sensor].name, light.target_lx, energy.full_kwh,
+        light.name.replace('_', " "),
+        report.scene.sensors[light.sensor].name,
+        light.target_lx,
+        energy.full_kwh,
     )
     .expect("strings grow");
 }

@@ -5,7 +5,8 @@ use crate::Figure;
 use crate::number::exact;
 use glam::DVec3;
 use quasilux_scene::{
-    Blinds, BlindsControl, ElectricLight, Environment, Scene, Sensor, SensorPoint, SensorShape,
+    Blinds, BlindsControl, BlindsGroup, BlindsPosition, ElectricLight, Environment, Scene, Sensor,
+    SensorPoint, SensorShape,
 };
 use quasilux_sky::{Distribution, Site, Sky, SkyLevel, Weather};
 use quasilux_transport::interval::t_quantile_for;
@@ -223,9 +224,9 @@ fn shares_of_points_have_bounds() {
 #[test]
 fn daylight_dims_lamps() {
     let calendar = calendar();
-    let light = ElectricLight { sensor: 0, target_lx: 400.0, power_w: 1000.0, min_power_w: 100.0 };
+    let light = light(1000.0);
     let t = t_quantile_for(2, 0.04);
-    let mut dimming = Dimming::begin(light, &scene_of_points(2));
+    let mut dimming = Dimming::begin(light.clone(), &scene_of_points(2));
     dimming.add(0, &[vec![50.0, 900.0, 0.0], vec![70.0, 900.0, 0.0]], t);
     dimming.add(1, &[vec![150.0, 900.0, 0.0], vec![130.0, 900.0, 0.0]], t);
     dimming.add(2, &[vec![1e6; 3], vec![1e6; 3]], t);
@@ -242,22 +243,63 @@ fn daylight_dims_lamps() {
     assert!((found / (t.unwrap() * error) - 1.0).abs() < 1e-9, "{found}");
 }
 
+fn light(power_w: f64) -> ElectricLight {
+    let name = "desks".to_owned();
+    ElectricLight { name, sensor: 0, target_lx: 400.0, power_w, min_power_w: 0.1 * power_w }
+}
+
 fn scene_of_points(count: usize) -> Scene {
     let point = SensorPoint { position: DVec3::ZERO, normal: DVec3::Z };
     let shape = SensorShape::Points(vec![point; count]);
     Scene { sensors: vec![Sensor { name: "desk".to_owned(), shape }], ..Scene::default() }
 }
 
-/// A schedule says it of all intervals, those without light, too.
+/// A schedule says it of all intervals, those without light, too; groups make a room of each set
+/// of positions that comes together.
 #[test]
-fn schedules_close_blinds() {
+fn schedules_move_groups_of_blinds() {
     let calendar = calendar();
-    let mut is_closed = vec![true; 48];
-    is_closed[calendar.intervals.iter().position(|it| it.sky == Some(1)).unwrap()] = false;
-    let control = BlindsControl::Schedule { is_closed };
-    let blinds = Blinds { closed: Scene::default(), control };
-    let closed = closed_hours(&blinds, &Scene::default(), &calendar, &Settings::default());
-    assert_eq!(closed, [true, false, true]);
+    let with_sky = |sky| calendar.intervals.iter().position(|it| it.sky == Some(sky)).unwrap();
+    let group = |name: &str, by_sky: [usize; 3]| {
+        let mut positions = vec![1; 48];
+        (0..3).for_each(|sky| positions[with_sky(sky)] = by_sky[sky]);
+        let position =
+            |name: &str| BlindsPosition { name: name.to_owned(), room: Scene::default() };
+        BlindsGroup {
+            name: name.to_owned(),
+            positions: ["half", "closed"].map(position).to_vec(),
+            control: BlindsControl::Schedule { positions },
+        }
+    };
+    let blinds = Blinds { groups: vec![group("south", [2, 0, 2]), group("west", [1, 0, 1])] };
+    let settings = Settings::default();
+    let year = BlindsOfYear::new(&blinds, &Scene::default(), &calendar, &settings);
+    assert_eq!(year.groups[0].by_hour, [2, 0, 2]);
+    let room = RoomOfYear { positions: vec![2, 1], is_own: vec![true, false, true] };
+    assert_eq!(year.rooms(), Ok(vec![room]));
+    assert_eq!(year.closed(&calendar, |_| true), 2);
+    let alone = Blinds { groups: vec![group("south", [0, 1, 2])] };
+    let rooms = BlindsOfYear::new(&alone, &Scene::default(), &calendar, &settings).rooms().unwrap();
+    let own: Vec<&[bool]> = rooms.iter().map(|room| room.is_own.as_slice()).collect();
+    assert_eq!(own, [[false, true, false], [false, false, true]]);
+}
+
+/// Half-widths of zones add up: nothing says that their errors are apart.
+#[test]
+fn zones_of_electric_light_add_up() {
+    let calendar = calendar();
+    let zone = |power_w: f64| {
+        let mut zone = Dimming::begin(light(power_w), &scene_of_points(1));
+        zone.add(0, &[vec![100.0, 900.0, 0.0], vec![140.0, 900.0, 0.0]], t_quantile_for(2, 0.04));
+        zone
+    };
+    let both = EnergyOfYear::of_all(&[zone(1000.0), zone(500.0)], &calendar);
+    let [large, small] = [1000.0, 500.0].map(|power_w| zone(power_w).energy(&calendar));
+    let sum = value(large.dimmed_kwh) + value(small.dimmed_kwh);
+    assert!((value(both.dimmed_kwh) - sum).abs() < 1e-9);
+    let widths = [large, small, both].map(|it| it.dimmed_kwh.half_width.unwrap());
+    assert!((widths[0] + widths[1] - widths[2]).abs() < 1e-12 && widths[2] > 0.0);
+    assert_eq!(both.full_kwh, large.full_kwh + small.full_kwh);
 }
 
 /// Under the open sky all that the calendar has is seen, and on the equinox half of a day.

@@ -6,7 +6,7 @@
 use super::{materials::listed, photometry};
 use crate::geometry::Geometry;
 use crate::light::{AreaLight, Luminaire, PointLight};
-use crate::project::{Emission, LightEntry, LuminaireEntry, Project};
+use crate::project::{Emission, LightEntry, LightOutput, LuminaireEntry, Project};
 use crate::{Files, Light, LoadError, Spanned, Warning};
 use glam::DVec3;
 use quasilux_photometry::{LuminousShape, Photometry, TiltSupport};
@@ -35,7 +35,7 @@ pub(super) fn place(
                 photometry
             }
         };
-        lights.push(Light::Luminaire(luminaire(project, entry, photometry, warnings)));
+        lights.push(Light::Luminaire(luminaire(project, entry, photometry, warnings)?));
     }
     let mut emitting: HashMap<u32, Position> = HashMap::new();
     for entry in &project.lights {
@@ -75,14 +75,38 @@ fn luminaire(
     entry: &LuminaireEntry,
     photometry: Arc<Photometry>,
     warnings: &mut Vec<Warning>,
-) -> Luminaire {
+) -> Result<Luminaire, LoadError> {
     let tilt_factor = tilt_factor(project, entry, &photometry, warnings);
-    Luminaire {
+    let dimming = dimming(project, entry, &photometry)?;
+    Ok(Luminaire {
         position: entry.position,
         world_from_luminaire: entry.world_from_luminaire,
-        dimming: entry.dimming * tilt_factor * project.maintenance_factor,
+        dimming: dimming * tilt_factor * project.maintenance_factor,
         shape: shape(project, entry, &photometry, warnings),
         photometry,
+    })
+}
+
+/// What the project asks of the light of the file.
+fn dimming(
+    project: &Project,
+    entry: &LuminaireEntry,
+    photometry: &Photometry,
+) -> Result<f64, LoadError> {
+    match entry.amount {
+        LightOutput::Dimming(factor) => Ok(factor),
+        LightOutput::FluxLm(0.0, _) => Ok(0.0),
+        LightOutput::FluxLm(flux_lm, place) => {
+            let of_file_lm = photometry.flux_lm();
+            if of_file_lm > 0.0 {
+                return Ok(flux_lm / of_file_lm);
+            }
+            let message = format!(
+                "\"{}\" gives no light in any direction, and no factor makes it {flux_lm} lm",
+                entry.photometry.value
+            );
+            Err(project.error(place, message))
+        }
     }
 }
 

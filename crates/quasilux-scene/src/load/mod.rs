@@ -30,7 +30,7 @@ pub struct Loaded {
     /// Blinds that move over a year; they are open in the scene.
     pub blinds: Option<Blinds>,
     /// Electric light that daylight dims over a year.
-    pub electric_light: Option<ElectricLight>,
+    pub electric_light: Vec<ElectricLight>,
     /// What the project file asks of the engine.
     pub simulation: SimulationSection,
     /// Oddities that were lived with.
@@ -95,9 +95,11 @@ fn build(
     Ok(Built { scene, places, facts })
 }
 
-fn electric_light(project: &Project) -> Result<Option<ElectricLight>, LoadError> {
-    let Some(entry) = &project.electric_light else { return Ok(None) };
-    let &ElectricLightEntry { power_w, min_power_w, target_lx, ref sensor } = entry;
-    let sensor = project.sensor_number(sensor)?;
-    Ok(Some(ElectricLight { sensor, target_lx, power_w, min_power_w }))
+fn electric_light(project: &Project) -> Result<Vec<ElectricLight>, LoadError> {
+    let zone = |entry: &ElectricLightEntry| {
+        let &ElectricLightEntry { power_w, min_power_w, target_lx, .. } = entry;
+        let (name, sensor) = (entry.name.clone(), project.sensor_number(&entry.sensor)?);
+        Ok(ElectricLight { name, sensor, target_lx, power_w, min_power_w })
+    };
+    project.electric_light.iter().map(zone).collect()
 }

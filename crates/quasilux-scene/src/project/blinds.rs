@@ -1,45 +1,106 @@
-//! `[blinds]`: what is before the windows while they are closed, and when that is.
+//! `[blinds]`, or `[[blinds]]` for several groups: what is before the windows while they are
+//! closed, and when that is.
 
 use super::document::Section;
 use super::materials::{self, MaterialEntry};
+use super::names::zone_name;
 use super::{
     geometry_files,
     outside::{OutsideEntry, OutsideLight},
 };
 use crate::{LoadError, Spanned};
 
-const KEYS: [&str; 6] = ["geometry", "materials", "control", "sensor", "schedule", "column"];
+const KEYS: [&str; 8] =
+    ["name", "geometry", "materials", "states", "control", "sensor", "schedule", "column"];
 const EXPECTED_GEOMETRY: &str = "[\"slats.obj\"]: files that are there while they are closed";
+/// Most groups, and positions of a group beside open.
+const MAX_GROUPS: usize = 64;
+const MAX_POSITIONS: usize = 16;
 
-/// Blinds, as far as the project file says it.
+/// A group of blinds, as far as the project file says it.
 #[derive(Clone, Debug)]
 pub(crate) struct BlindsEntry {
-    /// What is there beside the geometry of the scene.
-    pub(crate) geometry: Vec<Spanned<String>>,
-    /// What materials of the geometry are while blinds are closed.
-    pub(crate) materials: Vec<MaterialEntry>,
+    pub(crate) name: String,
+    /// All but open.
+    pub(crate) positions: Vec<PositionEntry>,
     pub(crate) rule: BlindsRule,
 }
 
-/// When they are closed.
+/// Where blinds may be.
+#[derive(Clone, Debug)]
+pub(crate) struct PositionEntry {
+    pub(crate) name: String,
+    /// What is there beside the geometry of the scene.
+    pub(crate) geometry: Vec<Spanned<String>>,
+    /// What materials of the geometry are while blinds are there.
+    pub(crate) materials: Vec<MaterialEntry>,
+}
+
+/// When they are where.
 #[derive(Clone, Debug)]
 pub(crate) enum BlindsRule {
     Sunlight { sensor: Option<Spanned<String>> },
     Schedule { file: Spanned<String>, column: Spanned<String> },
 }
 
-/// `None` where there is no `[blinds]`.
+/// The groups: none where there is no `[blinds]`, one of `[blinds]`, some of `[[blinds]]`.
 pub(super) fn read(
     root: &Section<'_>,
     outside: Option<&OutsideEntry>,
     open: &[Spanned<String>],
-) -> Result<Option<BlindsEntry>, LoadError> {
-    let Some(section) = root.table("blinds")? else { return Ok(None) };
+) -> Result<Vec<BlindsEntry>, LoadError> {
+    let sections = root.table_or_tables("blinds", MAX_GROUPS)?;
+    let Some(first) = sections.first() else { return Ok(Vec::new()) };
     if !matches!(outside, Some(OutsideEntry { light: OutsideLight::Weather(_), .. })) {
         let message = "[blinds] goes with [sky] model = \"weather\": they move over a year";
-        return Err(section.error(message));
+        return Err(first.error(message));
     }
+    let mut groups: Vec<BlindsEntry> = Vec::new();
+    for section in &sections {
+        let taken = groups.iter().map(|group| group.name.as_str());
+        let name = zone_name(section, "blinds", sections.len(), taken)?;
+        let group = group(section, name, open)?;
+        expect_apart(section, &groups, &group)?;
+        groups.push(group);
+    }
+    Ok(groups)
+}
+
+fn group(
+    section: &Section<'_>,
+    name: String,
+    open: &[Spanned<String>],
+) -> Result<BlindsEntry, LoadError> {
     section.only(&KEYS, &[])?;
+    let states = section.tables("states")?;
+    if states.is_empty() {
+        let positions = vec![position(section, "closed".to_owned(), open)?];
+        return Ok(BlindsEntry { name, positions, rule: rule(section)? });
+    }
+    let alone = ["geometry", "materials"].iter().find_map(|key| section.get(key));
+    if let Some(value) = alone {
+        let message =
+            format!("\"{}\" stands in each of the states where there are some", value.key);
+        return Err(value.error(message));
+    }
+    if let Some(state) = states.get(MAX_POSITIONS) {
+        return Err(state.error(format!("more than {MAX_POSITIONS} states of one group")));
+    }
+    let mut positions: Vec<PositionEntry> = Vec::new();
+    for state in &states {
+        state.only(&["name", "geometry", "materials"], &[])?;
+        let names = positions.iter().map(|position| position.name.as_str());
+        let name = zone_name(state, "closed", states.len(), names.chain(["open"]))?;
+        positions.push(position(state, name, open)?);
+    }
+    Ok(BlindsEntry { name, positions, rule: rule(section)? })
+}
+
+fn position(
+    section: &Section<'_>,
+    name: String,
+    open: &[Spanned<String>],
+) -> Result<PositionEntry, LoadError> {
     let list = section.get("geometry").map(|list| geometry_files(&list, EXPECTED_GEOMETRY));
     let geometry = list.transpose()?.unwrap_or_default();
     if let (Some(list), true) = (section.get("geometry"), geometry.iter().any(|it| is_in(open, it)))
@@ -55,7 +116,33 @@ pub(super) fn read(
                        while they are closed, or [blinds.materials.NAME], what a material is then";
         return Err(section.error(message));
     }
-    Ok(Some(BlindsEntry { geometry, materials, rule: rule(&section)? }))
+    Ok(PositionEntry { name, geometry, materials })
+}
+
+/// Refuses a group that has files or changes materials which an earlier one has.
+fn expect_apart(
+    section: &Section<'_>,
+    groups: &[BlindsEntry],
+    group: &BlindsEntry,
+) -> Result<(), LoadError> {
+    for other in groups {
+        for theirs in &other.positions {
+            for own in &group.positions {
+                let file = own.geometry.iter().find(|file| is_in(&theirs.geometry, file));
+                let has = |name: &str| theirs.materials.iter().any(|it| it.name.value == name);
+                let material = own.materials.iter().find(|it| has(&it.name.value));
+                let shared = file.or(material.map(|it| &it.name));
+                if let Some(shared) = shared {
+                    return Err(section.error(format!(
+                        "\"{}\" is of the blinds \"{}\", too; expected groups that move by \
+                         themselves, each with files and materials of its own",
+                        shared.value, other.name
+                    )));
+                }
+            }
+        }
+    }
+    Ok(())
 }
 
 fn rule(section: &Section<'_>) -> Result<BlindsRule, LoadError> {

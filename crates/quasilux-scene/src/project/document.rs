@@ -198,6 +198,25 @@ impl<'a> Section<'a> {
     }
 }
 
+impl<'a> Section<'a> {
+    /// One table, or an array of so many tables at most; none if the key is not given.
+    pub(super) fn table_or_tables(
+        &self,
+        key: &'a str,
+        most: usize,
+    ) -> Result<Vec<Section<'a>>, LoadError> {
+        let Some(value) = self.get(key) else { return Ok(Vec::new()) };
+        if !matches!(value.value.get_ref(), DeValue::Array(_)) {
+            return Ok(vec![value.section(format!("[{key}]"))?]);
+        }
+        let sections = self.tables(key)?;
+        match sections.get(most) {
+            Some(one_more) => Err(one_more.error(format!("more than {most} of [[{key}]]"))),
+            None => Ok(sections),
+        }
+    }
+}
+
 impl<'a> Value<'a> {
     pub(super) fn place(&self) -> Position {
         self.source.place(self.value.span().start)

@@ -1,13 +1,18 @@
-//! `[electric_light]`: lamps that daylight dims over a year.
+//! `[electric_light]`, or `[[electric_light]]` for several zones: lamps that daylight dims over a
+//! year.
 
 use super::document::Section;
+use super::names::zone_name;
 use crate::{LoadError, Spanned};
 
-const KEYS: [&str; 4] = ["power_w", "min_power_w", "target_lx", "sensor"];
+const KEYS: [&str; 5] = ["name", "power_w", "min_power_w", "target_lx", "sensor"];
+/// Most zones.
+const MAX_ZONES: usize = 1000;
 
-/// Electric light, as far as the project file says it.
+/// A zone of electric light, as far as the project file says it.
 #[derive(Clone, Debug)]
 pub(crate) struct ElectricLightEntry {
+    pub(crate) name: String,
     pub(crate) power_w: f64,
     pub(crate) min_power_w: f64,
     pub(crate) target_lx: f64,
@@ -15,9 +20,19 @@ pub(crate) struct ElectricLightEntry {
     pub(crate) sensor: Spanned<String>,
 }
 
-/// `None` where there is no `[electric_light]`.
-pub(super) fn read(root: &Section<'_>) -> Result<Option<ElectricLightEntry>, LoadError> {
-    let Some(section) = root.table("electric_light")? else { return Ok(None) };
+/// The zones: none where there is no `[electric_light]`.
+pub(super) fn read(root: &Section<'_>) -> Result<Vec<ElectricLightEntry>, LoadError> {
+    let sections = root.table_or_tables("electric_light", MAX_ZONES)?;
+    let mut zones: Vec<ElectricLightEntry> = Vec::new();
+    for section in &sections {
+        let taken = zones.iter().map(|zone| zone.name.as_str());
+        let name = zone_name(section, "electric_light", sections.len(), taken)?;
+        zones.push(zone(section, name)?);
+    }
+    Ok(zones)
+}
+
+fn zone(section: &Section<'_>, name: String) -> Result<ElectricLightEntry, LoadError> {
     section.only(&KEYS, &[])?;
     let number =
         |key, expected: &str| section.require(key, expected)?.number(expected, |x| x > 0.0);
@@ -28,10 +43,11 @@ pub(super) fn read(root: &Section<'_>) -> Result<Option<ElectricLightEntry>, Loa
     });
     let expected = "the name of the sensor whose average counts";
     let sensor = section.require("sensor", expected)?;
-    Ok(Some(ElectricLightEntry {
+    Ok(ElectricLightEntry {
+        name,
         power_w,
         min_power_w: min_power_w.transpose()?.unwrap_or(0.0),
         target_lx,
         sensor: sensor.spanned(sensor.string(expected)?.to_owned()),
-    }))
+    })
 }

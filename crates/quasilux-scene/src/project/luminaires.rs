@@ -6,7 +6,10 @@ use crate::{LoadError, Spanned};
 use glam::{DMat3, DVec3};
 use quasilux_text::Position;
 
-const KEYS: [&str; 7] = ["photometry", "position", "as", "aim", "c0", "rotation_deg", "dimming"];
+const KEYS: [&str; 8] =
+    ["photometry", "position", "as", "aim", "c0", "rotation_deg", "dimming", "flux_lm"];
+/// Largest flux that a project file may give, in lm; far from overflow.
+const MAX_FLUX_LM: f64 = 1e12;
 
 /// What `photometry` is.
 const FILE_NAME: &str = "the name of an .ies, .ldt or .xml (TM-33) file";
@@ -19,9 +22,18 @@ pub(crate) struct LuminaireEntry {
     pub(crate) photometry: Spanned<String>,
     pub(crate) position: DVec3,
     pub(crate) world_from_luminaire: DMat3,
-    pub(crate) dimming: f64,
+    pub(crate) amount: LightOutput,
     /// Where `as = "area"` asks for the luminous shape of the file; a point else.
     pub(crate) as_area: Option<Position>,
+}
+
+/// How much light a luminaire gives when it is new.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum LightOutput {
+    /// This factor of what its file says.
+    Dimming(f64),
+    /// This flux in lm, at the place of the project file.
+    FluxLm(f64, Position),
 }
 
 pub(super) fn read(root: &Section<'_>) -> Result<Vec<LuminaireEntry>, LoadError> {
@@ -33,10 +45,6 @@ fn luminaire(section: &Section<'_>) -> Result<LuminaireEntry, LoadError> {
     let photometry = photometry(section.require("photometry", FILE_NAME)?)?;
     let position = "a position [x, y, z] in m";
     let position = section.require("position", position)?.position_m(position)?;
-    let dimming = section.get("dimming").map(|dimming| {
-        dimming
-            .number("a factor of at least 0, where 1 is full light", |x| (0.0..=1e9).contains(&x))
-    });
     let form =
         section.get("as").map(|form| Ok((form.name(&["point", "area"], &[])?, form.place())));
     let as_area = match form.transpose()? {
@@ -48,9 +56,28 @@ fn luminaire(section: &Section<'_>) -> Result<LuminaireEntry, LoadError> {
         photometry,
         position,
         world_from_luminaire: rotation(section)?,
-        dimming: dimming.transpose()?.unwrap_or(1.0),
+        amount: amount(section)?,
         as_area,
     })
+}
+
+fn amount(section: &Section<'_>) -> Result<LightOutput, LoadError> {
+    match (section.get("dimming"), section.get("flux_lm")) {
+        (Some(_), Some(flux)) => {
+            Err(flux.error("\"dimming\" and \"flux_lm\" exclude each other; expected one of them"))
+        }
+        (None, Some(flux)) => {
+            let expected = "the flux of the luminaire in lm, at least 0";
+            let lm = flux.number(expected, |x| (0.0..=MAX_FLUX_LM).contains(&x))?;
+            Ok(LightOutput::FluxLm(lm, flux.place()))
+        }
+        (None, None) => Ok(LightOutput::Dimming(1.0)),
+        (Some(dimming), None) => {
+            let expected = "a factor of at least 0, where 1 is full light";
+            let factor = dimming.number(expected, |x| (0.0..=1e9).contains(&x))?;
+            Ok(LightOutput::Dimming(factor))
+        }
+    }
 }
 
 fn photometry(value: Value<'_>) -> Result<Spanned<String>, LoadError> {

@@ -25,11 +25,11 @@ pub use renamed::{REFUSED_KEYS, RefusedKey};
 pub use simulation::{SimulationSection, doubt_of_tolerance};
 pub use units::LengthUnit;
 
-pub(crate) use blinds::{BlindsEntry, BlindsRule};
+pub(crate) use blinds::{BlindsEntry, BlindsRule, PositionEntry};
 pub(crate) use cameras::CameraEntry;
 pub(crate) use electric_light::ElectricLightEntry;
 pub(crate) use lights::{Emission, LightEntry};
-pub(crate) use luminaires::LuminaireEntry;
+pub(crate) use luminaires::{LightOutput, LuminaireEntry};
 pub(crate) use materials::{LayerEntry, MaterialEntry, Scattering};
 pub(crate) use outside::{OutsideEntry, OutsideLight, OutsidePlaces, PanoramaEntry, WeatherEntry};
 pub(crate) use sensors::SensorEntry;
@@ -66,8 +66,8 @@ pub(crate) struct Project {
     pub(crate) lights: Vec<LightEntry>,
     /// What shines from outside.
     pub(crate) outside: Option<OutsideEntry>,
-    pub(crate) blinds: Option<BlindsEntry>,
-    pub(crate) electric_light: Option<ElectricLightEntry>,
+    pub(crate) blinds: Vec<BlindsEntry>,
+    pub(crate) electric_light: Vec<ElectricLightEntry>,
     pub(crate) sensors: Vec<SensorEntry>,
     /// At least one where there is no sensor.
     pub(crate) cameras: Vec<CameraEntry>,

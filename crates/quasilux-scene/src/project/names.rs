@@ -1,4 +1,5 @@
 //! Names of sensors and cameras: they become names of result files, so they are unique together.
+//! Names of groups of blinds and of zones of electric light.
 
 use super::document::Section;
 use crate::{Camera, LoadError};
@@ -67,4 +68,25 @@ fn is_file_name(name: &str) -> bool {
     let reserved = ["con", "prn", "aux", "nul"].iter().any(|word| name.eq_ignore_ascii_case(word));
     let edges = name.starts_with(['.', ' ', '-']) || name.ends_with(['.', ' ']);
     !(name.is_empty() || name.len() > MAX_BYTES || name.contains(forbidden) || edges || reserved)
+}
+
+/// The name of one of several groups or zones, which others have not taken; one alone may do
+/// without.
+pub(super) fn zone_name<'t>(
+    section: &Section<'_>,
+    usual: &str,
+    count: usize,
+    mut taken: impl Iterator<Item = &'t str>,
+) -> Result<String, LoadError> {
+    let expected = "a name for each of them";
+    let value = match section.get("name") {
+        Some(value) => value,
+        None if count == 1 => return Ok(usual.to_owned()),
+        None => section.require("name", expected)?,
+    };
+    let name = value.string(expected)?;
+    if name.is_empty() || taken.any(|other| other == name) {
+        return Err(value.unexpected("a name that is not empty and that no other has"));
+    }
+    Ok(name.to_owned())
 }

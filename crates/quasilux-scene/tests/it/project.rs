@@ -67,6 +67,26 @@ fn a_maintenance_factor_dims_all_lights() {
     }
 }
 
+/// The file's distribution with another flux, whatever the file gives; maintenance comes on top.
+#[test]
+fn a_luminaire_has_the_flux_that_the_project_says() {
+    let scene = "[\"room.obj\"]\nmaintenance_factor = 0.75";
+    let lamp = |more: &str| {
+        let lamp = "[[luminaires]]\nphotometry = \"lamp.ies\"\nposition = [0, 0, 2]\n";
+        let text = format!("{}{lamp}{more}", PROJECT.replace("[\"room.obj\"]", scene));
+        load_text(&text, &MapFiles::room())
+    };
+    for flux_lm in [0.0, 1.0, 3210.0] {
+        let loaded = lamp(&format!("flux_lm = {flux_lm}\n")).unwrap();
+        let found = loaded.scene.lights[0].flux_lm();
+        assert!((found - 0.75 * flux_lm).abs() <= 1e-9 * flux_lm, "{found} of {flux_lm}");
+    }
+    let refusal = |more: &str| lamp(more).unwrap_err().to_string();
+    let both = refusal("flux_lm = 5\ndimming = 1\n");
+    assert!(both.contains("exclude each other"), "{both}");
+    assert!(refusal("flux_lm = -1\n").contains("in lm, at least 0"));
+}
+
 #[test]
 fn tolerances_above_one_half_are_written_in_percent() {
     let rel_tol = |text: &str| {

@@ -8,7 +8,7 @@
 //! its interval.
 //!
 //! Points are simulated block by block (`state`), and a block is over before the next begins
-//! (`year`): nobody holds the hours of all points. Blinds make two states of a room, each of which
+//! (`year`): nobody holds the hours of all points. Blinds make other rooms of a room, each of which
 //! has its hours; when they close, the sun on the points may decide (`sunlit`).
 
 mod coefficients;
@@ -22,5 +22,5 @@ mod sunlit;
 mod year;
 
 pub use results::{PointOfYear, YearProgress, YearWork};
-pub use sunlit::{seen_suns, sunlit_points};
-pub use year::{ClosedHours, YearHours, YearObserver, YearRun, simulate_year};
+pub use sunlit::{Sunlight, seen_suns, sunlit_points};
+pub use year::{OtherRoom, YearHours, YearObserver, YearRun, simulate_year};

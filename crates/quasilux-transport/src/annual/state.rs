@@ -27,6 +27,9 @@ use std::borrow::Borrow;
 const MOST: u64 = 1 << 16;
 /// Paths between two questions whether to go on.
 const AT_ONCE: u64 = 1 << 12;
+/// Paths grow with this power of the width that they take off: between the 2 of random points and
+/// the 1 of smooth integrands.
+const PATHS_FOR_WIDTH: f64 = 1.5;
 /// Hours that say whether a point is known well enough.
 const PROBED_HOURS: usize = 256;
 
@@ -132,14 +135,14 @@ impl<'y, S: Spectrum> State<'y, S> {
         }
     }
 
-    /// Traces the points of a block until all are done, or somebody says that it does not go on:
-    /// then they are no use.
+    /// Traces the points of a block until all are done, or somebody who is told what share of that
+    /// seems to be over says that it does not go on: then they are no use.
     pub(super) fn simulate<'t>(
         &self,
         first: usize,
         targets: &'t [Target],
         work: &mut YearWork,
-        goes_on: &(dyn Fn() -> bool + Sync),
+        goes_on: &(dyn Fn(f64) -> bool + Sync),
     ) -> Vec<PointInWork<'t>> {
         let replicates = self.meshes.len() as u32;
         let begin = |(number, target): (usize, &'t Target)| {
@@ -157,10 +160,13 @@ impl<'y, S: Spectrum> State<'y, S> {
         let mut points: Vec<PointInWork<'t>> = targets.par_iter().enumerate().map(begin).collect();
         work.rays += points.iter().map(|point| point.disks.deciding_rays).sum::<u64>();
         let mut schedule = self.stopping.looks(self.settings.max_samples.unwrap_or(MOST));
-        while goes_on() {
+        let mut share = 0.0;
+        while goes_on(share) {
             let mut open: Vec<_> = points.iter_mut().filter(|point| !point.is_done).collect();
-            self.trace(&mut open, schedule.next_checkpoint(), work, goes_on);
+            self.trace(&mut open, schedule.next_checkpoint(), work, &|| goes_on(share));
             self.look(&mut open, schedule.is_look());
+            let of_points = points.iter().map(|point| self.share_of(point)).sum::<f64>();
+            share = of_points / points.len().max(1) as f64;
             if points.iter().all(|point| point.is_done) || !schedule.advance() {
                 break;
             }
@@ -207,6 +213,16 @@ impl<'y, S: Spectrum> State<'y, S> {
         for [rays, paths] in counts {
             work.rays += rays;
             work.paths += paths;
+        }
+    }
+
+    /// What share of the paths that a point needs it has by now, as far as its interval tells.
+    fn share_of(&self, point: &PointInWork<'_>) -> f64 {
+        let known = point.relative_half_width.filter(|known| *known > self.settings.rel_tol);
+        match known {
+            _ if point.is_done => 1.0,
+            Some(known) => libm::pow(self.settings.rel_tol / known, PATHS_FOR_WIDTH),
+            None => 0.0,
         }
     }
 

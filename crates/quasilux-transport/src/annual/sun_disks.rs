@@ -113,14 +113,12 @@ impl SunDisks {
         Self { seen, sums, rays, deciding_rays: queue.rays }
     }
 
-    /// The hours whose sun gives more than this illuminance in lx, by the rays that decide.
-    pub(super) fn hours_above<'a>(
+    /// What the suns of hours give by the rays that decide, in lx.
+    pub(super) fn glances<'a>(
         &'a self,
         suns: &'a [ShiningSun],
-        lx: f64,
-    ) -> impl Iterator<Item = usize> {
-        let above = self.seen.iter().filter(move |disk| disk.glanced_lx > lx);
-        above.map(|disk| suns[disk.sun].hour)
+    ) -> impl Iterator<Item = (usize, f64)> {
+        self.seen.iter().map(|disk| (suns[disk.sun].hour, disk.glanced_lx))
     }
 
     /// Has a replicate look at them as often as so many paths want; returns the rays.

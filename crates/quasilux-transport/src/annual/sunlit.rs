@@ -13,8 +13,20 @@ use quasilux_sky::{SkyPoint, WeatherSky};
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// How many of these sensor points, numbered through all sensors, get more than an illuminance in
-/// lx straight from the sun, hour by hour.
+/// Sunlight of two rooms is the same if it differs by no more than this share.
+const SAME: f64 = 1e-3;
+
+/// Sunlight that counts.
+#[derive(Clone, Copy, Debug)]
+pub struct Sunlight<'s> {
+    /// More than so many lx straight from the sun.
+    pub above_lx: f64,
+    /// Of those alone of which another room has not the same: what stands before the sun there and
+    /// not here.
+    pub differs_from: Option<&'s Scene>,
+}
+
+/// How many of these sensor points, numbered through all sensors, have such sunlight, hour by hour.
 ///
 /// Seven rays to each disk say it, the same whatever the seed; over cells they start at the centre.
 /// Runs in the rayon pool that the call is made in.
@@ -24,19 +36,31 @@ pub fn sunlit_points(
     hours: &[WeatherSky],
     settings: &Settings,
     points: Range<usize>,
-    lx: f64,
+    sunlight: Sunlight<'_>,
 ) -> Vec<usize> {
     let none = || vec![0; hours.len()];
     let Some(environment) = &scene.environment else { return none() };
-    let lit = lit(scene, environment);
-    let context = Context::<Rgb>::new(&lit, settings);
+    let room = |scene: &Scene| lit(scene, environment);
+    let (here, there) = (room(scene), sunlight.differs_from.map(room));
+    let here = Context::<Rgb>::new(&here, settings);
+    let there = there.as_ref().map(|scene| Context::<Rgb>::new(scene, settings));
     let sun = |(hour, of)| ShiningSun::new(hour, of, environment);
     let suns: Vec<ShiningSun> = hours.iter().enumerate().filter_map(sun).collect();
     let targets = targets(scene);
     let own = targets.get(points).unwrap_or_default().par_iter();
     let count = |mut counts: Vec<usize>, target| {
-        let disks = SunDisks::new(&context, target, &suns, 0);
-        disks.hours_above(&suns, lx).for_each(|hour| counts[hour] += 1);
+        let glance = |context: &Context<'_, Rgb>| {
+            let mut all_lx = vec![0.0; hours.len()];
+            let disks = SunDisks::new(context, target, &suns, 0);
+            disks.glances(&suns).for_each(|(hour, lx)| all_lx[hour] = lx);
+            all_lx
+        };
+        let there = there.as_ref().map(glance);
+        for (hour, lx) in glance(&here).into_iter().enumerate() {
+            let is_other = |there: &Vec<f64>| (there[hour] - lx).abs() > SAME * lx;
+            let counts_here = lx > sunlight.above_lx && there.as_ref().is_none_or(is_other);
+            counts[hour] += usize::from(counts_here);
+        }
         counts
     };
     let add = |mut all: Vec<usize>, others: Vec<usize>| {

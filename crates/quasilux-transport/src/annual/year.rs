@@ -21,17 +21,17 @@ const BLOCK: usize = 64;
 pub struct YearHours<'h> {
     /// What shines, hour by hour.
     pub skies: &'h [WeatherSky],
-    /// `None` where blinds are never closed.
-    pub closed: Option<ClosedHours<'h>>,
+    /// The rooms that blinds make of it where they are not all open, no two of them in one hour.
+    pub other_rooms: &'h [OtherRoom<'h>],
 }
 
-/// Hours in which blinds are closed.
+/// Hours in which blinds make another room of a scene.
 #[derive(Clone, Copy, Debug)]
-pub struct ClosedHours<'h> {
-    /// The scene then, with the same sensors and the same environment.
+pub struct OtherRoom<'h> {
+    /// The room, with the same sensors and the same environment.
     pub scene: &'h Scene,
-    /// Whether they are, by hour.
-    pub is_closed: &'h [bool],
+    /// Whether it is the room, by hour.
+    pub is_own: &'h [bool],
 }
 
 /// A year of hours at sensor points of a scene, with daylight alone: its lights are off.
@@ -46,15 +46,15 @@ pub struct YearRun<'y, T> {
     /// together again.
     pub points: Range<usize>,
     /// Each point gets paths until the root mean square over the hours of half-width over value is
-    /// within `rel_tol`, or up to `max_samples`: both with open and with closed blinds. Where
+    /// within `rel_tol`, or up to `max_samples`: in each of the rooms. Where
     /// `abs_tol_lx` is more than that tolerance of a value, it is what the hour is held to.
     pub settings: &'y Settings,
     /// Makes of each point what is to be kept, in the threads of the rayon pool that the run is
     /// made in.
     pub digest: &'y (dyn Fn(PointOfYear) -> T + Sync),
-    /// Asked many times a second, in the same threads: where it says no, the run ends without the
-    /// block that it is at.
-    pub goes_on: &'y (dyn Fn() -> bool + Sync),
+    /// Told many times a second, in the same threads, what share of the work seems to be over:
+    /// where it says no, the run ends without the block that it is at.
+    pub goes_on: &'y (dyn Fn(f64) -> bool + Sync),
 }
 
 /// Who follows a year.
@@ -81,15 +81,22 @@ impl<T> YearObserver<T> for Vec<T> {
 pub fn simulate_year<T: Send>(run: YearRun<'_, T>, observer: &mut dyn YearObserver<T>) -> YearWork {
     let YearRun { scene, hours, .. } = run;
     let Some(environment) = &scene.environment else { return YearWork::default() };
-    let closed = hours.closed.filter(|closed| closed.is_closed.contains(&true));
+    let others = hours.other_rooms.iter().filter(|room| room.is_own.contains(&true));
+    let others: Vec<(Scene, &[bool])> =
+        others.map(|room| (lit(room.scene, environment), room.is_own)).collect();
+    let mut is_open = vec![true; hours.skies.len()];
+    for (_, is_own) in &others {
+        is_open.iter_mut().zip(*is_own).for_each(|(open, own)| *open &= !own);
+    }
     let open = lit(scene, environment);
-    let closed_scene = closed.map(|closed| lit(closed.scene, environment));
-    let room = Room { environment, open: &open, closed: closed_scene.as_ref() };
-    let run = YearRun { hours: YearHours { closed, ..hours }, ..run };
-    if is_grey(&open) && closed_scene.as_ref().is_none_or(is_grey) {
-        simulate::<f64, T>(room, run, observer)
+    let rooms: Vec<Room<'_>> = [Room { scene: &open, is_own: &is_open }]
+        .into_iter()
+        .chain(others.iter().map(|(scene, is_own)| Room { scene, is_own }))
+        .collect();
+    if rooms.iter().all(|room| is_grey(room.scene)) {
+        simulate::<f64, T>(environment, &rooms, run, observer)
     } else {
-        simulate::<Rgb, T>(room, run, observer)
+        simulate::<Rgb, T>(environment, &rooms, run, observer)
     }
 }
 
@@ -103,41 +110,46 @@ pub(super) fn lit(scene: &Scene, environment: &Environment) -> Scene {
     Scene { lights: Vec::new(), environment: Some(environment), ..scene.clone() }
 }
 
-/// A room in its states.
+/// A room as blinds make it, and its hours.
 #[derive(Clone, Copy)]
 struct Room<'r> {
-    environment: &'r Environment,
-    open: &'r Scene,
-    closed: Option<&'r Scene>,
+    scene: &'r Scene,
+    is_own: &'r [bool],
 }
 
+/// The first of the rooms is the one with open blinds.
 fn simulate<S: Spectrum, T: Send>(
-    room: Room<'_>,
+    environment: &Environment,
+    rooms: &[Room<'_>],
     run: YearRun<'_, T>,
     observer: &mut dyn YearObserver<T>,
 ) -> YearWork {
-    let Room { environment, open, closed } = room;
-    let YearRun { hours, points, settings, digest, goes_on, .. } = run;
-    let YearHours { skies, closed: closed_hours } = hours;
-    let is_closed = closed_hours.map_or(vec![false; skies.len()], |it| it.is_closed.to_vec());
-    let is_open: Vec<bool> = is_closed.iter().map(|is_closed| !is_closed).collect();
-    let targets = targets(open);
+    let YearRun { scene, hours, points, settings, digest, goes_on } = run;
+    let skies = hours.skies;
+    let targets = targets(scene);
     let points = points.start.min(targets.len())..points.end.min(targets.len());
-    let [open, closed] =
-        [Some(open), closed].map(|it| it.map(|it| Context::<S>::new(it, settings)));
-    let of_open = StateHours { environment, skies, is_own: &is_open, has_sun_of_all: true };
-    let of_closed = StateHours { is_own: &is_closed, has_sun_of_all: false, ..of_open };
-    let open = open.as_ref().map(|context| State::new(context, of_open, settings, &targets));
-    let closed = closed.as_ref().map(|context| State::new(context, of_closed, settings, &targets));
-    let states: Vec<State<'_, S>> = open.into_iter().chain(closed).collect();
+    let contexts: Vec<Context<'_, S>> =
+        rooms.iter().map(|room| Context::new(room.scene, settings)).collect();
+    let state = |(number, context)| {
+        let Room { is_own, .. } = rooms[number];
+        let hours = StateHours { environment, skies, is_own, has_sun_of_all: number == 0 };
+        State::new(context, hours, settings, &targets)
+    };
+    let states: Vec<State<'_, S>> = contexts.iter().enumerate().map(state).collect();
     let mut work = YearWork { is_complete: points.is_empty(), ..YearWork::default() };
     for first in points.clone().step_by(BLOCK) {
         let own = &targets[first..(first + BLOCK).min(points.end)];
         let blank = |number| PointOfYear::blank(first + number, settings, skies.len());
         let mut years: Vec<PointOfYear> = (0..own.len()).map(blank).collect();
-        for state in &states {
-            let points = state.simulate(first, own, &mut work, goes_on);
-            if !goes_on() {
+        let share = |of_block: f64| {
+            let over = (first - points.start) as f64 + of_block * own.len() as f64;
+            over / points.len().max(1) as f64
+        };
+        for (number, state) in states.iter().enumerate() {
+            let share = |of_state: f64| share((number as f64 + of_state) / states.len() as f64);
+            let goes_on = |of_state: f64| goes_on(share(of_state));
+            let points = state.simulate(first, own, &mut work, &goes_on);
+            if !goes_on(1.0) {
                 return work;
             }
             state.add_to(&points, &mut years);
@@ -147,7 +159,7 @@ fn simulate<S: Spectrum, T: Send>(
         let over = first + own.len();
         work.is_complete = over == points.end;
         let said = observer.progress(YearProgress { over, of: points.end, work });
-        if said == Control::Stop || !goes_on() {
+        if said == Control::Stop || !goes_on(share(1.0)) {
             break;
         }
     }

@@ -13,8 +13,8 @@ use quasilux_sky::{
 use quasilux_transport::interval::t_quantile_for;
 use quasilux_transport::settings::Settings;
 use quasilux_transport::{
-    ClosedHours, EstimatorKind, Interval, PointOfYear, YearHours, YearRun, seen_suns, simulate,
-    simulate_year, sunlit_points,
+    EstimatorKind, Interval, OtherRoom, PointOfYear, Sunlight, YearHours, YearRun, seen_suns,
+    simulate, simulate_year, sunlit_points,
 };
 use std::f64::consts::PI;
 
@@ -45,12 +45,12 @@ fn moment(of: &Environment, hour: &WeatherSky) -> Environment {
 }
 
 fn year(scene: &Scene, hours: &[WeatherSky], settings: &Settings) -> Vec<PointOfYear> {
-    year_with_blinds(scene, YearHours { skies: hours, closed: None }, settings)
+    year_with_blinds(scene, YearHours { skies: hours, other_rooms: &[] }, settings)
 }
 
 fn year_with_blinds(scene: &Scene, hours: YearHours<'_>, settings: &Settings) -> Vec<PointOfYear> {
     let mut all = Vec::new();
-    let (points, digest, goes_on) = (0..usize::MAX, &|it| it, &|| true);
+    let (points, digest, goes_on) = (0..usize::MAX, &|it| it, &|_| true);
     simulate_year(YearRun { scene, hours, points, settings, digest, goes_on }, &mut all);
     all
 }
@@ -64,8 +64,8 @@ fn a_year_ends_when_it_is_told_to() {
     scene.environment = Some(environment(&mut numbers, window));
     let settings = &Settings { rel_tol: 1e-9, max_samples: Some(1 << 40), ..Settings::default() };
     let asked = std::sync::atomic::AtomicU32::new(0);
-    let goes_on = &|| asked.fetch_add(1, std::sync::atomic::Ordering::Relaxed) < 100;
-    let (hours, points) = (YearHours { skies, closed: None }, 0..usize::MAX);
+    let goes_on = &|_| asked.fetch_add(1, std::sync::atomic::Ordering::Relaxed) < 100;
+    let (hours, points) = (YearHours { skies, other_rooms: &[] }, 0..usize::MAX);
     let mut all: Vec<PointOfYear> = Vec::new();
     let run = YearRun { scene: &scene, hours, points, settings, digest: &|it| it, goes_on };
     let work = simulate_year(run, &mut all);
@@ -313,43 +313,73 @@ fn threads_change_no_bit() {
     assert_eq!(one.len(), 4);
 }
 
-/// With blinds that are closed in some hours, those have the values of the room with closed blinds
-/// and the others those of the room with open ones, bit for bit; the sun counts as if they were
-/// open.
+/// With blinds that make other rooms in some hours, each hour has the values of its room, within
+/// what its places of the sun are another's; the sun counts as if all were open.
 #[test]
-fn blinds_choose_between_two_rooms() {
+fn blinds_choose_among_rooms() {
     let mut numbers = Numbers(13);
     let Room { mut scene, window } = room_with_window(&mut numbers, 0.6);
     let hours = hours(&mut numbers, 12);
     scene.environment = Some(environment(&mut numbers, window));
-    let mut closed = scene.clone();
-    let sheet = Bsdf::Translucent(Translucent {
-        reflectance: Rgb::grey(0.6),
-        transmittance: Rgb::grey(0.1),
+    let closed = [0.3, 0.08].map(|transmittance| {
+        let mut closed = scene.clone();
+        let sheet = Bsdf::Translucent(Translucent {
+            reflectance: Rgb::grey(0.6),
+            transmittance: Rgb::grey(transmittance),
+        });
+        add_panel(&mut closed, window.origin, window.u, window.v, sheet);
+        closed
     });
-    add_panel(&mut closed, window.origin, window.u, window.v, sheet);
     let settings = Settings { max_samples: Some(64), rel_tol: 0.0, ..Settings::default() };
-    let is_closed: Vec<bool> = (0..hours.len()).map(|hour| hour % 3 == 1).collect();
-    let with = |is_closed: &[bool]| {
-        let closed = Some(ClosedHours { scene: &closed, is_closed });
-        year_with_blinds(&scene, YearHours { skies: &hours, closed }, &settings)
+    // 0 is open, 1 and 2 are the closed ones.
+    let with = |room_of: &dyn Fn(usize) -> usize| {
+        let own: Vec<Vec<bool>> = (1..=closed.len())
+            .map(|room| (0..hours.len()).map(|hour| room_of(hour) == room).collect())
+            .collect();
+        let rooms = closed.iter().zip(&own).map(|(scene, is_own)| OtherRoom { scene, is_own });
+        let rooms: Vec<OtherRoom<'_>> = rooms.collect();
+        year_with_blinds(&scene, YearHours { skies: &hours, other_rooms: &rooms }, &settings)
     };
-    let (mixed, never) = (with(&is_closed), year(&scene, &hours, &settings));
-    let (all_closed, none_closed) = (with(&[true; 12]), with(&[false; 12]));
+    let mixed = with(&|hour| hour % 3);
+    let alone = [0, 1, 2].map(|room| with(&|_| room));
+    let never = year(&scene, &hours, &settings);
     for (number, mixed) in mixed.iter().enumerate() {
-        assert_eq!(none_closed[number].illuminance_lx, never[number].illuminance_lx);
+        assert_eq!(alone[0][number].illuminance_lx, never[number].illuminance_lx);
         assert_eq!(mixed.sun_lx, never[number].sun_lx);
-        assert_eq!(all_closed[number].sun_lx, never[number].sun_lx);
-        let mean = |point: &PointOfYear, hour| interval(point, hour)[0];
-        for (hour, is_closed) in is_closed.iter().enumerate() {
-            let [own, other] = [&all_closed[number], &never[number]];
-            let [own, other] = if *is_closed { [own, other] } else { [other, own] };
-            // Places of the sun depend on the hours that share them.
-            let [found, own, other] = [mixed, own, other].map(|point| mean(point, hour));
-            assert!((found / own - 1.0).abs() < 0.3, "{hour}: {found} not {own}");
-            assert!((found / other - 1.0).abs() > 0.5, "{hour}: {found} as {other}");
+        assert_eq!(alone[2][number].sun_lx, never[number].sun_lx);
+        for hour in 0..hours.len() {
+            let found = interval(mixed, hour)[0];
+            for (room, alone) in alone.iter().enumerate() {
+                let ratio = found / interval(&alone[number], hour)[0];
+                let is_own = room == hour % 3;
+                assert_eq!((ratio - 1.0).abs() < 0.3, is_own, "{hour} in {room}: {ratio}");
+            }
         }
     }
+}
+
+/// Sunlight through one of two windows counts where another room has that one covered.
+#[test]
+fn sunlight_that_another_room_has_not_is_counted() {
+    let mut numbers = Numbers(29);
+    let Room { mut scene, window } = room_with_window(&mut numbers, 0.6);
+    let hours = hours(&mut numbers, 40);
+    scene.environment = Some(environment(&mut numbers, window));
+    let mut covered = scene.clone();
+    let black = Bsdf::Translucent(Translucent {
+        reflectance: Rgb::grey(0.0),
+        transmittance: Rgb::grey(0.5),
+    });
+    add_panel(&mut covered, window.origin, window.u, window.v, black);
+    let count = |scene: &Scene, differs_from| {
+        let all = 0..scene.sensors.iter().map(quasilux_scene::Sensor::len).sum();
+        let sunlight = Sunlight { above_lx: 100.0, differs_from };
+        sunlit_points(scene, &hours, &Settings::default(), all, sunlight)
+    };
+    let (open, none) = (count(&scene, None), count(&covered, None));
+    assert!(open.iter().sum::<usize>() > 0 && none.iter().all(|count| *count == 0));
+    assert_eq!(count(&scene, Some(&covered)), open);
+    assert!(count(&scene, Some(&scene)).iter().all(|count| *count == 0));
 }
 
 /// Points in the sun are counted as a quadrature over its disk has them.
@@ -364,7 +394,9 @@ fn points_in_the_sun_are_counted() {
         scene.environment = Some(environment.clone());
         let lx = 1000.0;
         let places = scene.sensors[0].points();
-        let counts = sunlit_points(&scene, &hours, &Settings::default(), 0..places.len(), lx);
+        let (settings, sunlight) =
+            (Settings::default(), Sunlight { above_lx: lx, differs_from: None });
+        let counts = sunlit_points(&scene, &hours, &settings, 0..places.len(), sunlight);
         for (hour, count) in hours.iter().zip(counts) {
             let towards = environment.towards(hour.sun);
             let seen = |place: &quasilux_scene::SensorPoint| {

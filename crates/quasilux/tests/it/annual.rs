@@ -155,3 +155,93 @@ fn blinds_close_and_lamps_are_dimmed() {
         assert!(done.stdout.contains("kWh a year"), "{}", done.stdout);
     }
 }
+
+/// Two sheets one above the other that move by themselves, the upper one to two positions: what
+/// comes through is the product of what each lets through. Zones of lamps add up.
+#[test]
+fn groups_of_blinds_and_zones_of_lamps() {
+    let sheet = |name: &str, z: f64| {
+        format!(
+            "usemtl {name}\nv -99 -99 {z}\nv 99 -99 {z}\nv 99 99 {z}\nv -99 99 {z}\nf 1 2 3 4\n"
+        )
+    };
+    let material = |name: &str, transmittance: f64| {
+        format!("materials.{name} = {{ reflectance = 0, transmittance = {transmittance} }}\n")
+    };
+    let state = |name: &str, transmittance| {
+        let head = format!("[[blinds.states]]\nname = \"{name}\"\ngeometry = [\"upper.obj\"]\n");
+        head + &material("upper", transmittance)
+    };
+    let scheduled = |column: &str| {
+        format!("control = \"schedule\"\nschedule = \"blinds.csv\"\ncolumn = \"{column}\"\n")
+    };
+    let upper = "[[blinds]]\nname = \"upper\"\n".to_owned() + &scheduled("upper");
+    let upper = upper + &state("half", 0.5) + &state("shut", 0.1);
+    let lower = "[[blinds]]\nname = \"lower\"\ngeometry = [\"lower.obj\"]\n".to_owned();
+    let zone = |name: &str, target: f64, power: f64| {
+        format!(
+            "[[electric_light]]\nname = \"{name}\"\nsensor = \"roof\"\ntarget_lx = {target}\n\
+             power_w = {power}\n"
+        )
+    };
+    let zones = zone("row 1", 500.0, 100.0) + &zone("row 2", 250.0, 50.0);
+    let lower_scheduled = lower.clone() + &scheduled("lower") + &material("lower", 0.5);
+    let by_sun = lower + &material("lower", 0.5);
+    for (name, lower, factors) in [
+        ("annual_groups", lower_scheduled, [0.25, 0.1, 0.5]),
+        // The sun shines at noon through both, and the upper one has none of it by its schedule.
+        ("annual_groups_sun", by_sun, [0.5, 0.05, 1.0]),
+    ] {
+        let folder = folder(name, &format!("{WEATHER}{upper}{lower}{zones}"));
+        folder.write("upper.obj", sheet("upper", 1.2));
+        folder.write("lower.obj", sheet("lower", 1.1));
+        let row = |hour: usize| match hour {
+            11 => "half,1\n".to_owned(),
+            12 => "2,0\n".to_owned(),
+            _ => "open,closed\n".to_owned(),
+        };
+        folder.write(
+            "blinds.csv",
+            "upper,lower\n".to_owned() + &(0..48).map(row).collect::<String>(),
+        );
+        let done = folder.quasilux(&["annual", "a.toml", "--out", "out", "--rel-tol", "1%"]);
+        assert_eq!(done.code, Some(0), "{}", done.stderr);
+        let hours = folder.read("out/hours.csv");
+        assert!(hours.starts_with("month,") && hours.contains(",upper_position,lower_position,"));
+        let rows: Vec<Vec<&str>> =
+            hours.lines().skip(1).map(|row| row.split(',').collect()).collect();
+        let figure = |row: usize, column: usize| rows[row][column].parse::<f64>().unwrap();
+        let noon = 12_000.0 + 60_000.0 * libm::sin(figure(12, 4).to_radians());
+        let mut dark_kwh = 17.0 * 0.15;
+        for ((row, lx), factor) in [11, 12, 36].into_iter().zip([9000.0, noon, 250.0]).zip(factors)
+        {
+            let found = figure(row, 10);
+            assert!((found / (factor * lx) - 1.0).abs() < 0.01, "{name} {row}: {found}");
+            let missing = |target: f64| (1.0 - factor * lx / target).max(0.0);
+            dark_kwh += 0.1 * missing(500.0) + 0.05 * missing(250.0);
+        }
+        let document = parsed(&folder.read("out/annual.json"));
+        let kwh = number(&document, "/electric_light/energy_kwh");
+        assert!((kwh - dark_kwh).abs() < 2e-3, "{kwh}, not {dark_kwh}");
+        assert_eq!(number(&document, "/electric_light/full_power_kwh"), 3.0);
+        assert_eq!(document["electric_light"]["zones"][1]["name"], "row 2");
+        assert_eq!(number(&document, "/blinds/groups/0/positions/2/occupied"), 1.0);
+        assert_eq!(document["blinds"]["groups"][0]["positions"][1]["name"], "half");
+        assert!(
+            done.stdout.contains("; upper half in 1 of the occupied, shut in 1 of the occupied")
+        );
+    }
+}
+
+#[test]
+fn what_a_year_leaves_out_is_told() {
+    let lamp = "[[lights]]\nkind = \"point\"\nposition = [0.5, 0.5, 2]\nintensity_cd = 9\n";
+    let camera = "[[cameras]]\nname = \"view\"\nposition = [0.5, 0.5, 3]\ntarget = [0.5, 0.6, 0]\n\
+        up = [0, 1, 0]\nvertical_fov_deg = 40\nresolution = [8, 8]\n";
+    let time = "[sun]\ntime = 2026-03-20T12:30:00\n";
+    let folder = folder("annual_left_out", &format!("{WEATHER}{time}{lamp}{camera}"));
+    let done = folder.quasilux(&["annual", "a.toml", "--out", "out", "--rel-tol", "5%"]);
+    assert_eq!(done.code, Some(0), "{}", done.stderr);
+    let told = "leaves out 1 light, 1 camera, time of [sun] of the project";
+    assert!(done.stdout.contains(told), "{}", done.stdout);
+}

@@ -99,7 +99,7 @@ fn errors_of(known: &KnownScene, points: Vec<Interval>, all: [Interval; 2]) -> V
 /// A run over hours: each of a point is a point, and the least of them, far below the others, the
 /// minimum.
 fn hours(known: &KnownScene, settings: &Settings) -> End {
-    let year = YearHours { skies: &known.hours, closed: None };
+    let year = YearHours { skies: &known.hours, other_rooms: &[] };
     let mut points: Vec<PointOfYear> = Vec::new();
     let run = YearRun {
         scene: &known.scene,
@@ -107,7 +107,7 @@ fn hours(known: &KnownScene, settings: &Settings) -> End {
         points: 0..usize::MAX,
         settings,
         digest: &|it| it,
-        goes_on: &|| true,
+        goes_on: &|_| true,
     };
     simulate_year(run, &mut points);
     let hours = known.hours.len();

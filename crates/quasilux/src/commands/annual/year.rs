@@ -7,20 +7,20 @@ use crate::arguments::OutputArguments;
 use crate::build::VERSION;
 use crate::commands::pool;
 use crate::exit::{CliError, Exit};
-use crate::heartbeat::Heartbeat;
 use crate::interrupt;
+use crate::meter::Meter;
 use crate::print::{print, tell};
 use crate::project::Project;
 use crate::results;
 use crate::year_file::{YearBlock, YearCost};
 use quasilux_report::annual::{
-    AnnualReport, AnnualRun, Calendar, Dimming, PointOfHours, Thresholds, annual_json,
-    annual_table, closed_hours, sun_hours,
+    AnnualReport, AnnualRun, BlindsOfYear, Calendar, Dimming, PointOfHours, RoomOfYear, Thresholds,
+    annual_json, annual_table, sun_hours,
 };
-use quasilux_scene::{Blinds, Loaded, Sensor};
+use quasilux_scene::{ElectricLight, Loaded, Scene, Sensor};
 use quasilux_sky::Weather;
 use quasilux_transport::{
-    ClosedHours, Control, PointOfYear, Settings, YearHours, YearObserver, YearProgress, YearRun,
+    Control, OtherRoom, PointOfYear, Settings, YearHours, YearObserver, YearProgress, YearRun,
     YearWork, simulate_year,
 };
 use rayon::ThreadPool;
@@ -37,11 +37,11 @@ pub(super) struct Year<'p> {
     calendar: Calendar,
     pub(super) settings: Settings,
     occupied_h: Range<f64>,
-    /// Electric light without any daylight yet.
-    dimming: Option<Dimming>,
+    /// Zones of electric light without any daylight yet.
+    dimmings: Vec<Dimming>,
     threads: usize,
     pool: ThreadPool,
-    is_closed: OnceLock<Option<Vec<bool>>>,
+    blinds: OnceLock<Option<BlindsOfYear>>,
 }
 
 /// Where blocks go.
@@ -54,7 +54,6 @@ struct Blocks<'b, 'k> {
     points: Vec<PointOfHours>,
     begin: Instant,
     before: YearWork,
-    signs_of_life: Heartbeat,
 }
 
 impl<'b, 'k> Blocks<'b, 'k> {
@@ -65,7 +64,6 @@ impl<'b, 'k> Blocks<'b, 'k> {
             points: Vec::new(),
             begin: Instant::now(),
             before: YearWork::default(),
-            signs_of_life: Heartbeat::new("simulating a year"),
         }
     }
 }
@@ -75,8 +73,7 @@ impl YearObserver<PointOfHours> for Blocks<'_, '_> {
         self.points.push(point);
     }
 
-    fn progress(&mut self, YearProgress { over, of, work }: YearProgress) -> Control {
-        self.signs_of_life.set(&format!("simulating a year: {over} of {of} points"));
+    fn progress(&mut self, YearProgress { work, .. }: YearProgress) -> Control {
         let took = YearCost {
             rays: work.rays - self.before.rays,
             paths: work.paths - self.before.paths,
@@ -98,16 +95,17 @@ impl<'p> Year<'p> {
         let weather = weather(project)?;
         let calendar = Calendar::new(weather, occupied_h).map_err(CliError::new)?;
         let loaded = &project.loaded;
+        let begin = |light: &ElectricLight| Dimming::begin(light.clone(), &loaded.scene);
         Ok(Self {
             project,
             weather,
             calendar,
             settings,
             occupied_h: occupied_h.clone(),
-            dimming: loaded.electric_light.map(|light| Dimming::begin(light, &loaded.scene)),
+            dimmings: loaded.electric_light.iter().map(begin).collect(),
             threads,
             pool: pool(threads)?,
-            is_closed: OnceLock::new(),
+            blinds: OnceLock::new(),
         })
     }
 
@@ -123,15 +121,27 @@ impl<'p> Year<'p> {
 
     /// Whether electric light looks at a point, and so needs all of its replicates.
     fn is_dimmed(&self, number: usize) -> bool {
-        self.dimming.as_ref().is_some_and(|dimming| dimming.looks_at(number))
+        self.dimmings.iter().any(|dimming| dimming.looks_at(number))
     }
 
-    /// When blinds are closed, by hour of those with light; found out when it is first asked for.
-    fn is_closed(&self) -> Option<&[bool]> {
+    /// Where blinds are; found out when it is first asked for.
+    fn blinds(&self) -> Option<&BlindsOfYear> {
         let Loaded { scene, blinds, .. } = &self.project.loaded;
-        let find = |blinds| closed_hours(blinds, scene, &self.calendar, &self.settings);
-        let found = || blinds.as_ref().map(|blinds| self.pool.install(|| find(blinds)));
-        self.is_closed.get_or_init(found).as_deref()
+        let move_all = |blinds| BlindsOfYear::new(blinds, scene, &self.calendar, &self.settings);
+        let found = || blinds.as_ref().map(|blinds| self.pool.install(|| move_all(blinds)));
+        self.blinds.get_or_init(found).as_ref()
+    }
+
+    /// The rooms that blinds make, and when.
+    fn rooms(&self) -> Result<Vec<(Scene, Vec<bool>)>, CliError> {
+        let Loaded { scene, blinds, .. } = &self.project.loaded;
+        let Some((blinds, of_year)) = blinds.as_ref().zip(self.blinds()) else {
+            return Ok(Vec::new());
+        };
+        let rooms =
+            of_year.rooms().map_err(|it| CliError::in_file(&self.project.name, None, it))?;
+        let room = |RoomOfYear { positions, is_own }| (blinds.room(scene, &positions), is_own);
+        Ok(rooms.into_iter().map(room).collect())
     }
 
     /// Simulates some points, block by block; the result says whether all are over.
@@ -144,10 +154,10 @@ impl<'p> Year<'p> {
             return Ok(true);
         }
         let loaded = &self.project.loaded;
-        let closed = loaded.blinds.as_ref().zip(self.is_closed());
-        let closed = closed
-            .map(|(Blinds { closed: scene, .. }, is_closed)| ClosedHours { scene, is_closed });
-        let hours = YearHours { skies: &self.calendar.skies, closed };
+        let rooms = self.rooms()?;
+        let other_rooms = rooms.iter().map(|(scene, is_own)| OtherRoom { scene, is_own });
+        let other_rooms: Vec<OtherRoom<'_>> = other_rooms.collect();
+        let hours = YearHours { skies: &self.calendar.skies, other_rooms: &other_rooms };
         let thresholds = Thresholds::default();
         let digest = |point: PointOfYear| {
             let is_dimmed = self.is_dimmed(point.number);
@@ -155,7 +165,11 @@ impl<'p> Year<'p> {
             if is_dimmed { point } else { point.slimmed() }
         };
         let (scene, settings) = (&loaded.scene, &self.settings);
-        let goes_on = || !interrupt::requested();
+        let meter = Meter::new(1);
+        let goes_on = |share: f64| {
+            meter.show(share);
+            !interrupt::requested()
+        };
         let run = YearRun { scene, hours, points, settings, digest: &digest, goes_on: &goes_on };
         let mut blocks = Blocks::new(keep);
         let work = self.pool.install(|| simulate_year(run, &mut blocks));
@@ -206,6 +220,7 @@ impl<'p> Year<'p> {
     fn warnings(&self) -> Vec<String> {
         let own = &self.project.loaded.warnings;
         let mut warnings: Vec<String> = own.iter().map(ToString::to_string).collect();
+        warnings.extend(self.left_out());
         let held = self.calendar.skies.iter().filter(|hour| hour.sky.is_held()).count();
         if held > 0 {
             warnings.push(format!(
@@ -216,6 +231,28 @@ impl<'p> Year<'p> {
             ));
         }
         warnings
+    }
+
+    /// That a project has what no year looks at.
+    fn left_out(&self) -> Option<String> {
+        let Loaded { scene, sky, .. } = &self.project.loaded;
+        let named = |count: usize, name: &str| {
+            (count > 0).then(|| format!("{count} {name}{}", if count == 1 { "" } else { "s" }))
+        };
+        let has_time = sky.as_ref().is_some_and(|facts| !facts.lacks_time());
+        let all = [
+            named(scene.lights.len(), "light"),
+            named(scene.cameras.len(), "camera"),
+            has_time.then(|| "time of [sun]".to_owned()),
+        ];
+        let all: Vec<String> = all.into_iter().flatten().collect();
+        (!all.is_empty()).then(|| {
+            format!(
+                "a year is of daylight alone, in all of its hours: it leaves out {} of the \
+                 project, which `quasilux run` looks at",
+                all.join(", ")
+            )
+        })
     }
 
     /// A report without points.
@@ -232,8 +269,8 @@ impl<'p> Year<'p> {
         };
         let occupied_h = self.occupied_h.clone();
         let mut report = AnnualReport::begin(scene, self.weather, &self.calendar, occupied_h, run);
-        report.dimming.clone_from(&self.dimming);
-        report.closed = self.is_closed().map(<[bool]>::to_vec);
+        report.dimmings.clone_from(&self.dimmings);
+        report.blinds = self.blinds().cloned();
         let look = || sun_hours(scene, &self.calendar, &report.site, &report.run.settings);
         report.sun_hours = self.pool.install(look).map_err(CliError::new)?;
         Ok(report)

@@ -5,7 +5,7 @@ use glam::DVec3;
 use quasilux_inspection::Finding;
 use quasilux_report::number::{brief, plural};
 use quasilux_scene::bsdf::Pane;
-use quasilux_scene::{Bsdf, Environment, Light, Scene, SensorShape};
+use quasilux_scene::{Bsdf, Environment, Light, Scene, SensorShape, SkyFacts};
 use quasilux_text::printable;
 use std::fmt::Write;
 
@@ -36,13 +36,18 @@ pub(super) fn summary(project: &Project) -> String {
         "flux",
         vec![format!("{flux_lm} lm of {}", plural(scene.lights.len() as u64, "light"))],
     );
-    section("outside", scene.environment.iter().map(outside).collect());
+    let is_of_a_year = project.loaded.sky.as_ref().is_some_and(SkyFacts::lacks_time);
+    section("outside", scene.environment.iter().map(|it| outside(it, is_of_a_year)).collect());
     section("sensors", scene.sensors.iter().map(sensor).collect());
     section("cameras", scene.cameras.iter().map(camera).collect());
     text
 }
 
-fn outside(environment: &Environment) -> String {
+fn outside(environment: &Environment, is_of_a_year: bool) -> String {
+    let openings = plural(environment.openings.len() as u64, "named opening");
+    if is_of_a_year {
+        return format!("a weather file in all of its hours (`quasilux annual`), {openings}");
+    }
     let lx = brief(environment.horizontal_illuminance_lx(), 5);
     let sun = match environment.sun {
         Some(sun) => {
@@ -51,7 +56,6 @@ fn outside(environment: &Environment) -> String {
         }
         None => "no sun".to_owned(),
     };
-    let openings = plural(environment.openings.len() as u64, "named opening");
     format!("{lx} lx on a horizontal plane, {sun}, {openings}")
 }
 
@@ -137,10 +141,15 @@ fn light(project: &Project, index: usize) -> String {
             let turn = luminaire.world_from_luminaire;
             let (aim, c0) = (direction(-turn.z_axis), direction(turn.x_axis));
             let form = if luminaire.is_area() { luminaire.shape.name() } else { "point" };
+            let maintenance = project.loaded.maintenance_factor;
+            let new = match maintenance {
+                1.0 => String::new(),
+                factor => format!(" of {} when new", brief(light.flux_lm() / factor, 5)),
+            };
             format!(
-                "{number} {file}, {flux_lm} lm, {form} at {}, aim {aim}, C0 {c0}, dimming {}",
+                "{number} {file}, {flux_lm} lm{new}, {form} at {}, aim {aim}, C0 {c0}, dimming {}",
                 place(luminaire.position),
-                brief(luminaire.dimming, 3)
+                brief(luminaire.dimming / maintenance, 3)
             )
         }
         Light::Point(point) => {
