@@ -1,6 +1,99 @@
-//! What changes in a room over a year of hours: blinds, and electric light that daylight dims.
+//! What changes in a room over a year of hours: blinds, and electric light that daylight dims; and
+//! what the year is judged by.
 
 use crate::{Mesh, Scene};
+use std::ops::Range;
+
+/// What a year is judged by.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct YearTerms {
+    /// When people are there.
+    pub occupancy: Occupancy,
+    /// What illuminances are compared with.
+    pub thresholds: Thresholds,
+}
+
+/// When people are there.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Occupancy {
+    /// By the clock.
+    Hours {
+        /// Within these hours of the day.
+        hours: Range<f64>,
+        /// On which days.
+        days: OccupiedDays,
+    },
+    /// Said for each interval of the weather file.
+    Schedule {
+        /// Whether they are.
+        is_there: Vec<bool>,
+    },
+}
+
+/// Days of a year.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OccupiedDays {
+    /// All of them.
+    All,
+    /// From Monday to Friday, in a year that begins with this day of the week, from 0 for Monday.
+    Weekdays {
+        /// The day of the week of 1 January.
+        new_year: u32,
+    },
+}
+
+/// What illuminances are compared with, in lx.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Thresholds {
+    /// Enough light: 300 lx (IES LM-83).
+    pub enough_lx: f64,
+    /// Below it daylight is of no use, and above the other it is too much: 100 and 3000 lx (A.
+    /// Nabil and J. Mardaljevic, "Useful daylight illuminances", Energy and Buildings 38, 2006,
+    /// with the bounds in use since 2012).
+    pub useful_lx: [f64; 2],
+    /// Sunlight that glares or heats, straight from the sun: 1000 lx (LM-83).
+    pub sunlight_lx: f64,
+}
+
+impl Occupancy {
+    /// Hours of the clock, on all days.
+    #[must_use]
+    pub fn daily(hours: Range<f64>) -> Self {
+        Self::Hours { hours, days: OccupiedDays::All }
+    }
+
+    /// Whether people are there in an interval: its number in the weather file, the day of the
+    /// year, from 1, and the middle in h from midnight.
+    #[must_use]
+    pub fn holds(&self, interval: usize, day_of_year: u32, middle_h: f64) -> bool {
+        match self {
+            Self::Hours { hours, days } => hours.contains(&middle_h) && days.holds(day_of_year),
+            Self::Schedule { is_there } => is_there.get(interval).is_some_and(|is_there| *is_there),
+        }
+    }
+}
+
+impl OccupiedDays {
+    fn holds(self, day_of_year: u32) -> bool {
+        match self {
+            Self::All => true,
+            Self::Weekdays { new_year } => (new_year + day_of_year + 6) % 7 < 5,
+        }
+    }
+}
+
+/// From 8 to 18 h, on all days (LM-83).
+impl Default for Occupancy {
+    fn default() -> Self {
+        Self::daily(8.0..18.0)
+    }
+}
+
+impl Default for Thresholds {
+    fn default() -> Self {
+        Self { enough_lx: 300.0, useful_lx: [100.0, 3000.0], sunlight_lx: 1000.0 }
+    }
+}
 
 /// Blinds: groups of them, each of which moves by itself.
 #[derive(Clone, Debug)]
@@ -110,4 +203,30 @@ fn add(room: &mut Scene, open: &Scene, other: &Scene) {
         .extend(object_of[first..].iter().map(|it| behind(objects, before.objects.len(), *it)));
     to.positions.extend_from_slice(&from.positions[before.positions.len()..]);
     to.objects.extend_from_slice(&from.objects[before.objects.len()..]);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// 1 January 2024 was a Monday, 2 March 2024 a Saturday.
+    #[test]
+    fn weekends_are_free() {
+        let occupancy = |new_year| Occupancy::Hours {
+            hours: 8.0..18.0,
+            days: OccupiedDays::Weekdays { new_year },
+        };
+        for (day, is_there) in
+            [(1, true), (5, true), (6, false), (7, false), (8, true), (62, false)]
+        {
+            assert_eq!(occupancy(0).holds(0, day, 12.0), is_there, "{day}");
+            assert_eq!(
+                occupancy(2).holds(0, day.max(3) - 2, 12.0),
+                occupancy(0).holds(0, day.max(3), 12.0)
+            );
+        }
+        assert!(!occupancy(0).holds(0, 1, 18.0) && occupancy(0).holds(0, 1, 8.0));
+        let schedule = Occupancy::Schedule { is_there: vec![false, true] };
+        assert_eq!([0, 1, 2].map(|number| schedule.holds(number, 6, 3.0)), [false, true, false]);
+    }
 }

@@ -25,7 +25,10 @@ pub mod scene;
 pub mod sensor;
 pub mod solids;
 
-pub use annual::{Blinds, BlindsControl, BlindsGroup, BlindsPosition, ElectricLight};
+pub use annual::{
+    Blinds, BlindsControl, BlindsGroup, BlindsPosition, ElectricLight, Occupancy, OccupiedDays,
+    Thresholds, YearTerms,
+};
 pub use bsdf::Bsdf;
 pub use camera::{Camera, View};
 pub use environment::{Environment, Opening, SkyFacts, SkyModel, Sun};

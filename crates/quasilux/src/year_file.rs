@@ -23,7 +23,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 /// Name and version of the format.
-const FORMAT: &str = "quasilux-year/1";
+const FORMAT: &str = "quasilux-year/2";
 /// A block: 64 points with all replicates of an hour's every minute.
 const MAX_BLOCK_BYTES: u64 = 16 << 30;
 
@@ -33,8 +33,8 @@ const MAX_BLOCK_BYTES: u64 = 16 << 30;
 pub(crate) struct YearHeading {
     /// Its project, its scene and its settings.
     pub(crate) run: Heading,
-    /// When people are there.
-    pub(crate) occupied_h: Range<f64>,
+    /// When people are there, where that was said on the command line.
+    pub(crate) occupied_h: Option<Range<f64>>,
     /// The points that it is to have, numbered through all sensors.
     pub(crate) points: Range<usize>,
     /// How many points the sensors have.

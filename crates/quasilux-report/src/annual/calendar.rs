@@ -1,7 +1,7 @@
 //! Which hours of a weather file count for what.
 
+use quasilux_scene::Occupancy;
 use quasilux_sky::{SkyError, Weather, WeatherSky};
-use std::ops::Range;
 
 /// The intervals of a weather file.
 #[derive(Clone, Debug)]
@@ -39,18 +39,19 @@ pub struct Interval {
 }
 
 impl Calendar {
-    /// The calendar of a file; people are there on all days within these hours of the clock.
+    /// The calendar of a file, and when people are there.
     ///
     /// # Errors
     /// For dates that no year has, which no file that could be read has.
-    pub fn new(weather: &Weather, occupied_h: &Range<f64>) -> Result<Self, SkyError> {
+    pub fn new(weather: &Weather, occupancy: &Occupancy) -> Result<Self, SkyError> {
         let (mut skies, mut unknown_occupied) = (Vec::new(), 0);
         let mut intervals = Vec::with_capacity(weather.hours.len());
-        for hour in &weather.hours {
+        for (number, hour) in weather.hours.iter().enumerate() {
             let sky = weather.sky_of(hour)?;
             let middle_h = hour.seconds / 3600.0;
             let is_known = hour.light.is_some() || weather.is_night(hour)?;
-            let has_people = occupied_h.contains(&middle_h);
+            let day_of_year = weather.time_of(hour)?.day_of_year();
+            let has_people = occupancy.holds(number, day_of_year, middle_h);
             unknown_occupied += usize::from(has_people && !is_known);
             intervals.push(Interval {
                 month: hour.month,

@@ -14,6 +14,7 @@ use super::report::{AnnualReport, AnnualRun, SensorPoints};
 use super::sensor::{SensorOfYear, ShareOfPoints};
 use super::sun_hours::SunHours;
 use crate::json::text;
+use quasilux_scene::{Occupancy, OccupiedDays};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
@@ -49,6 +50,16 @@ struct SensorEntry<'a> {
 pub fn annual_json(report: &AnnualReport<'_>) -> String {
     let run = &report.run;
     let calendar = report.calendar;
+    let (occupied_h, occupied_days) = match &report.occupancy {
+        Occupancy::Schedule { .. } => (None, "schedule"),
+        Occupancy::Hours { hours, days } => (
+            Some([hours.start, hours.end]),
+            match days {
+                OccupiedDays::All => "all",
+                OccupiedDays::Weekdays { .. } => "weekdays",
+            },
+        ),
+    };
     let sensors = report.sensors().zip(report.summaries()).map(|(of, summary)| {
         let SensorPoints { sensor, points, sun_hours, .. } = of;
         let places = sensor.points();
@@ -83,7 +94,8 @@ pub fn annual_json(report: &AnnualReport<'_>) -> String {
             "lit": calendar.skies.len(),
             "occupied": calendar.count(|it| it.is_occupied),
             "daylit": calendar.count(|it| it.is_daylit),
-            "occupied_h": [report.occupied_h.start, report.occupied_h.end],
+            "occupied_h": occupied_h,
+            "occupied_days": occupied_days,
         }),
         blinds: report.blinds.as_ref().map(|blinds| blinds_entry(blinds, calendar)),
         electric_light: electric_light(report),

@@ -1,19 +1,7 @@
 //! Measures of a year, of the illuminances of its hours at one point.
 
 use super::calendar::Calendar;
-
-/// What illuminances are compared with, in lx.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Thresholds {
-    /// Enough light: 300 lx (IES LM-83).
-    pub enough_lx: f64,
-    /// Below it daylight is of no use, and above the other it is too much: 100 and 3000 lx (A.
-    /// Nabil and J. Mardaljevic, "Useful daylight illuminances", Energy and Buildings 38, 2006,
-    /// with the bounds in use since 2012).
-    pub useful_lx: [f64; 2],
-    /// Sunlight that glares or heats, straight from the sun: 1000 lx (LM-83).
-    pub sunlight_lx: f64,
-}
+use quasilux_scene::Thresholds;
 
 /// A measure of a year.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -36,12 +24,6 @@ pub enum Measure {
     Exposure,
     /// The illuminance in lx that half of the hours with daylight exceed (EN 17037).
     MedianDaylight,
-}
-
-impl Default for Thresholds {
-    fn default() -> Self {
-        Self { enough_lx: 300.0, useful_lx: [100.0, 3000.0], sunlight_lx: 1000.0 }
-    }
 }
 
 impl Measure {
@@ -74,19 +56,22 @@ impl Measure {
         }
     }
 
-    /// What it is called in headings.
+    /// What it is called in headings, with what illuminances are compared with.
     #[must_use]
-    pub fn title(self) -> &'static str {
+    pub fn title(self, thresholds: &Thresholds) -> String {
+        let &Thresholds { enough_lx, useful_lx: [least_lx, most_lx], sunlight_lx } = thresholds;
         match self {
-            Self::Autonomy => "daylight autonomy",
-            Self::ContinuousAutonomy => "continuous daylight autonomy",
-            Self::TooLittle => "useful daylight: too little",
-            Self::Supplementary => "useful daylight: supplementary",
-            Self::Autonomous => "useful daylight: autonomous",
-            Self::TooMuch => "useful daylight: too much",
-            Self::SunlitHours => "hours of direct sunlight",
-            Self::Exposure => "light exposure",
-            Self::MedianDaylight => "median daylight",
+            Self::Autonomy => format!("daylight autonomy, {enough_lx} lx"),
+            Self::ContinuousAutonomy => format!("continuous daylight autonomy, {enough_lx} lx"),
+            Self::TooLittle => format!("useful daylight: too little, below {least_lx} lx"),
+            Self::Supplementary => {
+                format!("useful daylight: supplementary, {least_lx} to {enough_lx} lx")
+            }
+            Self::Autonomous => format!("useful daylight: autonomous, {enough_lx} to {most_lx} lx"),
+            Self::TooMuch => format!("useful daylight: too much, above {most_lx} lx"),
+            Self::SunlitHours => format!("hours of direct sunlight above {sunlight_lx} lx"),
+            Self::Exposure => "light exposure".to_owned(),
+            Self::MedianDaylight => "median daylight".to_owned(),
         }
     }
 

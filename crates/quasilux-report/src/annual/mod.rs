@@ -27,7 +27,7 @@ pub use csv::{annual_csv, hours_csv};
 pub use dimming::{Dimming, EnergyOfYear};
 pub use document::annual_json;
 pub use equinox::EquinoxSheets;
-pub use measures::{Measure, Thresholds};
+pub use measures::Measure;
 pub use picture::{AnnualMap, annual_maps, hours_png};
 pub use point::{HourCounts, PointOfHours, PointSummary};
 pub use report::{AnnualReport, AnnualRun, SensorPoints};

@@ -8,6 +8,10 @@ use crate::plan::Lights;
 use quasilux_drawing::picture::{self, Caption, Cell, GridPicture, YearPicture};
 use quasilux_scene::{Sensor, SensorShape};
 
+/// What the scale of a map in percent goes through, so that maps can be compared.
+const WHOLE: [Cell; 2] =
+    [Cell { value: Some(0.0), half_width: None }, Cell { value: Some(100.0), half_width: None }];
+
 /// A picture of a sensor, a PNG file.
 pub struct AnnualMap<'a> {
     /// The sensor.
@@ -39,7 +43,7 @@ pub fn annual_maps<'a>(
             let facts = [format!("average {} {unit}", brief(mean, 4))];
             let png = picture::grid(&GridPicture {
                 caption: Caption {
-                    title: &format!("{}: {}", sensor.name, measure.title()),
+                    title: &format!("{}: {}", sensor.name, measure.title(&report.thresholds)),
                     project: of.title,
                     facts: &facts,
                     method: &method(report),
@@ -51,7 +55,7 @@ pub fn annual_maps<'a>(
                 v_m: grid.v.to_array(),
                 counts: grid.counts,
                 cells: &cells,
-                scale_cells: &[],
+                scale_cells: if measure.is_share() { &WHOLE } else { &[] },
                 target: (measure == Measure::Autonomy).then_some(50.0),
                 surroundings: lights.surroundings(of.scene),
             });

@@ -12,8 +12,9 @@
 //! Both are wider by what intervals of which nothing is known may change.
 
 use super::calendar::Calendar;
-use super::measures::{Measure, Thresholds, measures, off_by_missing};
+use super::measures::{Measure, measures, off_by_missing};
 use crate::Figure;
+use quasilux_scene::Thresholds;
 use quasilux_transport::{Interval, PointOfYear};
 use serde::{Deserialize, Serialize};
 

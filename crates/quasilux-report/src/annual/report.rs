@@ -4,14 +4,12 @@ use super::blinds::BlindsOfYear;
 use super::calendar::Calendar;
 use super::dimming::Dimming;
 use super::equinox::EquinoxSheets;
-use super::measures::Thresholds;
 use super::point::{PointOfHours, PointSummary};
 use super::sensor::SensorOfYear;
 use super::sun_hours::SunHours;
-use quasilux_scene::{Scene, Sensor};
+use quasilux_scene::{Occupancy, Scene, Sensor, Thresholds, YearTerms};
 use quasilux_sky::{Site, Weather};
 use quasilux_transport::{Settings, YearWork};
-use std::ops::Range;
 
 /// What a year was made of.
 #[derive(Clone, Debug)]
@@ -56,8 +54,8 @@ pub struct AnnualReport<'a> {
     pub site: Site,
     /// The hours.
     pub calendar: &'a Calendar,
-    /// When people are there, in h of the clock.
-    pub occupied_h: Range<f64>,
+    /// When people are there.
+    pub occupancy: Occupancy,
     /// Where blinds are; `None` where there are none.
     pub blinds: Option<BlindsOfYear>,
     /// Zones of electric light that daylight dims.
@@ -106,7 +104,7 @@ impl<'a> AnnualReport<'a> {
         scene: &'a Scene,
         weather: &'a Weather,
         calendar: &'a Calendar,
-        occupied_h: Range<f64>,
+        terms: YearTerms,
         run: AnnualRun,
     ) -> Self {
         let hours = calendar.intervals.len();
@@ -115,10 +113,10 @@ impl<'a> AnnualReport<'a> {
             place: &weather.place,
             site: weather.site,
             calendar,
-            occupied_h,
+            occupancy: terms.occupancy,
             blinds: None,
             dimmings: Vec::new(),
-            thresholds: Thresholds::default(),
+            thresholds: terms.thresholds,
             points: Vec::new(),
             sun_hours: Vec::new(),
             equinox: EquinoxSheets::begin(calendar),

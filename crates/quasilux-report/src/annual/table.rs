@@ -8,6 +8,7 @@ use super::point::PointSummary;
 use super::report::{AnnualReport, SensorPoints};
 use super::sensor::{DaylightLevel, SensorOfYear, ShareOfPoints};
 use crate::number::{count, figure_text};
+use quasilux_scene::{Occupancy, OccupiedDays, Thresholds};
 use std::fmt::Write;
 
 /// Names of the levels of EN 17037.
@@ -18,13 +19,12 @@ const LEVELS: [&str; 4] = ["none", "minimum", "medium", "high"];
 pub fn annual_table(report: &AnnualReport<'_>) -> String {
     let calendar = report.calendar;
     let mut text = format!(
-        "{}: {} intervals of {} h, {} of them occupied ({} to {} h)",
+        "{}: {} intervals of {} h, {} of them occupied ({})",
         report.place,
         count(calendar.intervals.len() as u64),
         calendar.interval_h,
         count(calendar.count(|it| it.is_occupied) as u64),
-        report.occupied_h.start,
-        report.occupied_h.end,
+        occupied(&report.occupancy),
     );
     let unknown = calendar.count(|it| !it.is_known);
     if unknown > 0 {
@@ -35,7 +35,7 @@ pub fn annual_table(report: &AnnualReport<'_>) -> String {
     }
     text.push_str("\n\n");
     for (SensorPoints { sensor, points, .. }, summary) in report.sensors().zip(report.summaries()) {
-        write_sensor(&mut text, &sensor.name, points, &summary);
+        write_sensor(&mut text, &sensor.name, points, &summary, &report.thresholds);
     }
     for dimming in &report.dimmings {
         write_electric_light(&mut text, report, dimming);
@@ -60,6 +60,20 @@ pub fn annual_table(report: &AnnualReport<'_>) -> String {
         writeln!(text, "warning: {warning}").expect("strings grow");
     }
     text
+}
+
+/// When people are there.
+fn occupied(occupancy: &Occupancy) -> String {
+    match occupancy {
+        Occupancy::Schedule { .. } => "by schedule".to_owned(),
+        Occupancy::Hours { hours, days } => {
+            let days = match days {
+                OccupiedDays::All => "",
+                OccupiedDays::Weekdays { .. } => ", Monday to Friday",
+            };
+            format!("{} to {} h{days}", hours.start, hours.end)
+        }
+    }
 }
 
 /// Where blinds are in the occupied intervals.
@@ -89,27 +103,34 @@ fn write_electric_light(text: &mut String, report: &AnnualReport<'_>, dimming: &
     .expect("strings grow");
 }
 
-fn write_sensor(text: &mut String, name: &str, points: &[PointSummary], summary: &SensorOfYear) {
+fn write_sensor(
+    text: &mut String,
+    name: &str,
+    points: &[PointSummary],
+    summary: &SensorOfYear,
+    thresholds: &Thresholds,
+) {
+    let &Thresholds { enough_lx, useful_lx: [least_lx, most_lx], sunlight_lx } = thresholds;
     let mean = |measure: Measure| {
         let values = points.iter().filter_map(|point| point.measure(measure).value);
         values.sum::<f64>() / points.len().max(1) as f64
     };
     let percent = |measure| format!("{:.1} %", 100.0 * mean(measure));
     let useful = format!(
-        "{} below 100 lx, {} to 300 lx, {} to 3000 lx, {} above",
+        "{} below {least_lx} lx, {} to {enough_lx} lx, {} to {most_lx} lx, {} above",
         percent(Measure::TooLittle),
         percent(Measure::Supplementary),
         percent(Measure::Autonomous),
         percent(Measure::TooMuch),
     );
     let lines = [
-        ("sDA (300 lx, 50 %)", share_text(summary.autonomy)),
-        ("ASE (1000 lx, 250 h)", share_text(summary.sunlight)),
-        ("EN 17037", level_text(summary)),
-        ("mean DA", percent(Measure::Autonomy)),
-        ("mean cDA", percent(Measure::ContinuousAutonomy)),
-        ("mean UDI", useful),
-        ("mean exposure", format!("{:.0} klx h a year", 1e-3 * mean(Measure::Exposure))),
+        (format!("sDA ({enough_lx} lx, 50 %)"), share_text(summary.autonomy)),
+        (format!("ASE ({sunlight_lx} lx, 250 h)"), share_text(summary.sunlight)),
+        ("EN 17037".to_owned(), level_text(summary)),
+        ("mean DA".to_owned(), percent(Measure::Autonomy)),
+        ("mean cDA".to_owned(), percent(Measure::ContinuousAutonomy)),
+        ("mean UDI".to_owned(), useful),
+        ("mean exposure".to_owned(), format!("{:.0} klx h a year", 1e-3 * mean(Measure::Exposure))),
     ];
     writeln!(text, "{name} ({} points)", count(points.len() as u64)).expect("strings grow");
     for (what, value) in lines {

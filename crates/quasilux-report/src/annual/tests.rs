@@ -5,8 +5,8 @@ use crate::Figure;
 use crate::number::exact;
 use glam::DVec3;
 use quasilux_scene::{
-    Blinds, BlindsControl, BlindsGroup, BlindsPosition, ElectricLight, Environment, Scene, Sensor,
-    SensorPoint, SensorShape,
+    Blinds, BlindsControl, BlindsGroup, BlindsPosition, ElectricLight, Environment, Occupancy,
+    Scene, Sensor, SensorPoint, SensorShape, Thresholds,
 };
 use quasilux_sky::{Distribution, Site, Sky, SkyLevel, Weather};
 use quasilux_transport::interval::t_quantile_for;
@@ -35,7 +35,7 @@ fn calendar() -> Calendar {
         }
     }
     let weather = Weather::parse(text.as_bytes()).unwrap().weather;
-    Calendar::new(&weather, &(8.0..18.0)).unwrap()
+    Calendar::new(&weather, &Occupancy::default()).unwrap()
 }
 
 /// A point whose three hours with light have these illuminances in each replicate.
@@ -335,7 +335,7 @@ fn a_year_without_radiation_has_no_level() {
         }
     }
     let weather = Weather::parse(text.as_bytes()).unwrap().weather;
-    let calendar = Calendar::new(&weather, &(8.0..18.0)).unwrap();
+    let calendar = Calendar::new(&weather, &Occupancy::default()).unwrap();
     assert!(calendar.is_of_a_year);
     // Night is night: half of the year but for twilight.
     let dark = calendar.count(|interval| interval.is_known);
@@ -359,7 +359,7 @@ fn sheets_of_the_equinox_are_of_the_clearest_day() {
         }
     }
     let weather = Weather::parse(text.as_bytes()).unwrap().weather;
-    let calendar = Calendar::new(&weather, &(8.0..18.0)).unwrap();
+    let calendar = Calendar::new(&weather, &Occupancy::default()).unwrap();
     let mut sheets = EquinoxSheets::begin(&calendar);
     let hours = calendar.skies.len();
     let lx: Vec<f32> = (0..hours).map(|hour| hour as f32).collect();

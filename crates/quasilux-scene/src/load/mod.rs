@@ -1,5 +1,6 @@
 //! From the bytes of a project to a checked [`Scene`].
 
+mod annual;
 mod blinds;
 mod glazing;
 mod lights;
@@ -8,10 +9,11 @@ mod measured;
 mod outside;
 mod photometry;
 mod places;
+mod schedule;
 
 pub use places::Places;
 
-use crate::annual::{Blinds, ElectricLight};
+use crate::annual::{Blinds, ElectricLight, YearTerms};
 use crate::project::{ElectricLightEntry, Project, SimulationSection};
 use crate::{Files, LoadError, Scene, SkyFacts, Warning, checks, enclosures, geometry};
 
@@ -27,6 +29,8 @@ pub struct Loaded {
     pub maintenance_factor: f64,
     /// What the sky was made of; `None` where nothing is outside.
     pub sky: Option<SkyFacts>,
+    /// What a year is judged by.
+    pub annual: YearTerms,
     /// Blinds that move over a year; they are open in the scene.
     pub blinds: Option<Blinds>,
     /// Electric light that daylight dims over a year.
@@ -50,6 +54,7 @@ pub fn load(
     let project = Project::parse(project_name, project_bytes)?;
     let mut warnings = Vec::new();
     let Built { scene, places, facts } = build(&project, files, &mut warnings)?;
+    let annual = annual::terms(&project, scene.weather.as_ref(), files)?;
     let intervals = scene.weather.as_ref().map_or(0, |weather| weather.hours.len());
     let blinds = blinds::hang(&project, intervals, files, &mut warnings)?;
     let electric_light = electric_light(&project)?;
@@ -59,6 +64,7 @@ pub fn load(
         places,
         maintenance_factor,
         sky: facts,
+        annual,
         blinds,
         electric_light,
         simulation,

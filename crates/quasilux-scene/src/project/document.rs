@@ -327,6 +327,13 @@ impl<'a> Value<'a> {
         }
     }
 
+    /// Two finite numbers.
+    pub(super) fn pair(&self, expected: &str) -> Result<[f64; 2], LoadError> {
+        let elements = self.array(expected)?;
+        let [a, b] = elements.as_slice() else { return Err(self.unexpected(expected)) };
+        Ok([a.number(expected, |_| true)?, b.number(expected, |_| true)?])
+    }
+
     /// A position, or an edge between two, in m.
     pub(super) fn position_m(&self, expected: &str) -> Result<DVec3, LoadError> {
         Ok(self.vector(expected)? * self.source.position_unit_m)

@@ -4,6 +4,7 @@
 //! keys, wrong types and values out of range are refused with their place and the nearest valid
 //! key.
 
+mod annual;
 mod blinds;
 mod cameras;
 mod coefficients;
@@ -25,6 +26,7 @@ pub use renamed::{REFUSED_KEYS, RefusedKey};
 pub use simulation::{SimulationSection, doubt_of_tolerance};
 pub use units::LengthUnit;
 
+pub(crate) use annual::{AnnualEntry, OccupancyEntry};
 pub(crate) use blinds::{BlindsEntry, BlindsRule, PositionEntry};
 pub(crate) use cameras::CameraEntry;
 pub(crate) use electric_light::ElectricLightEntry;
@@ -66,6 +68,7 @@ pub(crate) struct Project {
     pub(crate) lights: Vec<LightEntry>,
     /// What shines from outside.
     pub(crate) outside: Option<OutsideEntry>,
+    pub(crate) annual: AnnualEntry,
     pub(crate) blinds: Vec<BlindsEntry>,
     pub(crate) electric_light: Vec<ElectricLightEntry>,
     pub(crate) sensors: Vec<SensorEntry>,
@@ -80,7 +83,7 @@ const MAX_PARTS: usize = 1 << 23;
 
 const EXPECTED_SENSORS: &str = "at least one [[sensors]] or [[cameras]]";
 
-const SECTIONS: [&str; 15] = [
+const SECTIONS: [&str; 16] = [
     "scene",
     "materials",
     "luminaires",
@@ -91,6 +94,7 @@ const SECTIONS: [&str; 15] = [
     "sun",
     "ground",
     "openings",
+    "annual",
     "blinds",
     "electric_light",
     "sensors",
@@ -130,6 +134,7 @@ impl Project {
         let luminaires = luminaires::read(&root)?;
         let lights = lights::read(&root)?;
         let outside = outside::read(&root)?;
+        let annual = annual::read(&root, outside.as_ref())?;
         let blinds = blinds::read(&root, outside.as_ref(), &geometry)?;
         if luminaires.is_empty() && lights.is_empty() && outside.is_none() {
             let message = "no lights; expected at least one [[luminaires]] or [[lights]], or [sky]";
@@ -155,6 +160,7 @@ impl Project {
             luminaires,
             lights,
             outside,
+            annual,
             blinds,
             electric_light: electric_light::read(&root)?,
             sensors,

@@ -45,7 +45,7 @@ pub(super) fn read(
     let time_zone_h = degrees(8, 15.0, "hours ahead of Greenwich, -15 to 15")?;
     let site = Site::new(latitude_deg, longitude_deg, time_zone_h)
         .map_err(|error| ParseError::new(location.start(), error, "a site"))?;
-    let Declared { at: declared_at, an_hour: declared } = intervals_per_hour(rows)?;
+    let Declared { at: declared_at, an_hour: declared, weekday } = data_period(rows)?;
     let data = rows.iter().skip(HEADER).filter(|row| !row.text().trim().is_empty());
     let data: Vec<&Row<'_>> = data.collect();
     let lines = data.iter().map(|row| Line::new(row, warnings));
@@ -69,7 +69,12 @@ pub(super) fn read(
     }
     let places = data.iter().map(|row| row.start()).collect();
     let (units, year) = (WeatherUnits::Irradiance, year_of(&hours));
-    let mut weather = Weather { place, site, units, interval_s, hours, year };
+    let mut weather =
+        Weather { place, site, units, interval_s, hours, new_year_weekday: None, year };
+    weather.new_year_weekday = weekday.zip(weather.hours.first()).and_then(|(weekday, first)| {
+        let day_of_year = weather.time_of(first).ok()?.day_of_year();
+        Some((weekday + 371 - (day_of_year - 1)) % 7)
+    });
     if interval_s < HOUR_S {
         tell_powers_from_energies(&mut weather, declared_at, warnings);
     }
@@ -125,14 +130,21 @@ fn tell_powers_from_energies(
     warnings.push(WeatherWarning::PowerOrEnergy, at, found, expected);
 }
 
-/// How many intervals an hour has by the header.
+/// The days of the week as headers write them.
+const WEEKDAYS: [&str; 7] =
+    ["monday", "tuesday", "wednesday", "thursday", "friday", "saturday", "sunday"];
+
+/// What the header says of the first data period.
 struct Declared {
     at: Position,
+    /// Intervals.
     an_hour: f64,
+    /// The day of the week of its first day, from 0 for Monday.
+    weekday: Option<u32>,
 }
 
 /// From the last line of the header.
-fn intervals_per_hour(rows: &[Row<'_>]) -> Result<Declared, ParseError> {
+fn data_period(rows: &[Row<'_>]) -> Result<Declared, ParseError> {
     let what = "DATA PERIODS in line 8";
     let Some(row) = rows.get(HEADER - 1) else {
         let last = rows[rows.len() - 1];
@@ -147,7 +159,12 @@ fn intervals_per_hour(rows: &[Row<'_>]) -> Result<Declared, ParseError> {
     let per_hour = row.field(&fields, 2, what)?;
     let count = number(&per_hour, 1.0..=60.0, what)?;
     if 60.0 % count == 0.0 {
-        Ok(Declared { at: per_hour.at, an_hour: count })
+        let weekday = row.field(&fields, 4, "the day of the week of the first day").ok();
+        let is_weekday = |name: &str| {
+            weekday.as_ref().is_some_and(|field| field.text.eq_ignore_ascii_case(name))
+        };
+        let weekday = (0..).zip(WEEKDAYS).find(|(_, name)| is_weekday(name)).map(|(day, _)| day);
+        Ok(Declared { at: per_hour.at, an_hour: count, weekday })
     } else {
         Err(ParseError::new(per_hour.at, quoted(per_hour.text), what))
     }

@@ -35,6 +35,9 @@ pub struct Weather {
     /// The intervals, in the order of the file. Where a WEA file of a year leaves out its nights,
     /// they are here all the same, dark.
     pub hours: Vec<WeatherHour>,
+    /// The day of the week of 1 January, from 0 for Monday, where the file says which day of the
+    /// week it begins with.
+    pub new_year_weekday: Option<u32>,
     /// The year that all dates are taken to be of.
     year: i32,
 }

@@ -46,7 +46,7 @@ pub(super) fn read(rows: &[Row<'_>]) -> Result<PlacedWeather, ParseError> {
     let interval_s = usual_interval_s(hours.iter().map(WeatherHour::time)).unwrap_or(HOUR_S);
     let places = rows.iter().map(|row| row.start()).collect();
     let year = year_of(&hours);
-    let weather = Weather { place, site, units, interval_s, hours, year };
+    let weather = Weather { place, site, units, interval_s, hours, new_year_weekday: None, year };
     Ok(PlacedWeather { weather, places })
 }
 

@@ -23,9 +23,9 @@ pub(crate) struct AnnualArguments {
     /// Paths of each sensor point in each replicate, at most
     #[arg(long, value_name = "N", value_parser = whole::<u64>(1..=1 << 30))]
     pub(crate) samples: Option<u64>,
-    /// When people are there, by the clock of the site, all days
-    #[arg(long, value_name = "FROM-TO", value_parser = hours_of_day, default_value = "8-18")]
-    pub(crate) occupied: Range<f64>,
+    /// When people are there, by the clock of the site [default: the project's, or else 8-18]
+    #[arg(long, value_name = "FROM-TO", value_parser = hours_of_day)]
+    pub(crate) occupied: Option<Range<f64>>,
     /// Number of threads [default: all cores]
     #[arg(long, value_name = "N", value_parser = whole::<u16>(1..=1024))]
     pub(crate) threads: Option<u16>,

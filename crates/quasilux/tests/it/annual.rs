@@ -245,3 +245,66 @@ fn what_a_year_leaves_out_is_told() {
     let told = "leaves out 1 light, 1 camera, time of [sun] of the project";
     assert!(done.stdout.contains(told), "{}", done.stdout);
 }
+
+/// What a year is judged by: other thresholds, hours and days than usual, or a schedule of people.
+/// The first of the two days is a Friday in a year that begins with a Thursday: 20 March is the
+/// 79th day, so the days are a Friday and a Saturday.
+#[test]
+fn a_project_says_what_its_year_is_judged_by() {
+    let annual = "[annual]\nenough_lx = 200\nuseful_lx = [150, 10000]\noccupied_h = [11, 13]\n";
+    let weekdays = format!("{annual}weekends = false\nfirst_day = \"thursday\"\n");
+    let scheduled = "[annual]\nschedule = \"people.csv\"\ncolumn = \"all\"\n";
+    let command = ["annual", "a.toml", "--out", "out", "--rel-tol", "1%"];
+    for (name, rest, more, occupied, text) in [
+        ("annual_terms", annual, &[][..], 4.0, "(11 to 13 h)"),
+        ("annual_weekdays", &weekdays, &[], 2.0, "(11 to 13 h, Monday to Friday)"),
+        ("annual_weekdays_of", &weekdays, &["--occupied", "0-24"], 24.0, "(0 to 24 h, Monday to"),
+        ("annual_schedule", scheduled, &[], 3.0, "(by schedule)"),
+    ] {
+        let folder = folder(name, &format!("{WEATHER}{rest}"));
+        let row = |hour: usize| match hour {
+            11 => "there\n",
+            12 | 36 => "1\n",
+            _ => "0\n",
+        };
+        folder.write("people.csv", "all\n".to_owned() + &(0..48).map(row).collect::<String>());
+        let done = folder.quasilux(&[&command[..], more].concat());
+        assert_eq!(done.code, Some(0), "{}", done.stderr);
+        assert!(done.stdout.contains(text), "{}", done.stdout);
+        let document = parsed(&folder.read("out/annual.json"));
+        assert_eq!(number(&document, "/hours/occupied"), occupied, "{name}");
+        let point = |key: &str| number(&document, &format!("/sensors/0/points/0/{key}"));
+        let (enough, useful) = match name {
+            // 9000 lx and 250 lx are enough, and as much as is of use.
+            "annual_terms" => (0.75, 0.5),
+            "annual_weekdays" => (1.0, 0.5),
+            "annual_schedule" => (2.0 / 3.0, 0.0),
+            _ => (2.0 / 24.0, 1.0 / 24.0),
+        };
+        assert!((point("daylight_autonomy") - enough).abs() < 1e-9, "{name}");
+        assert!((point("udi_autonomous") - useful).abs() < 1e-9, "{name}");
+        let enough_lx = if name == "annual_schedule" { 300.0 } else { 200.0 };
+        assert_eq!(number(&document, "/thresholds/enough_lx"), enough_lx);
+        assert!(done.stdout.contains(&format!("sDA ({enough_lx} lx, 50 %)")));
+    }
+}
+
+#[test]
+fn terms_of_a_year_that_make_no_sense_are_refused() {
+    for (number, (annual, words)) in [
+        ("weekends = false\n", "a.toml:7:12: the weather file does not say with which day"),
+        ("occupied_h = [18, 8]\n", "hours of a day, like [8, 18]"),
+        ("enough_lx = 50\n", "expected enough light to be of use"),
+        ("schedule = \"people.csv\"\n", "column"),
+        ("schedule = \"a\"\ncolumn = \"b\"\nweekends = true\n", "a schedule exclude each other"),
+        ("weekend = false\n", "weekends"),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let folder = folder(&format!("annual_terms_{number}"), &format!("{WEATHER}[annual]\n{annual}"));
+        let refused = folder.quasilux(&["annual", "a.toml"]);
+        assert_eq!(refused.code, Some(2), "{annual}: {}", refused.stdout);
+        assert!(refused.stderr.contains(words), "{annual}: {}", refused.stderr);
+    }
+}

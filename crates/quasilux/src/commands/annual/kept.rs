@@ -175,7 +175,7 @@ fn year<'p>(
         return refuse(format!("{} is another scene now: {change}", project.name));
     }
     let settings = project::kept_settings(&heading.run.settings, name, project)?;
-    let year = Year::new(project, settings, &heading.occupied_h, threads)?;
+    let year = Year::new(project, settings, heading.occupied_h.as_ref(), threads)?;
     if year.points() != heading.of {
         return refuse(format!(
             "is of {} points, {} has {}",

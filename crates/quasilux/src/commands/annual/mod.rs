@@ -25,7 +25,7 @@ pub(crate) fn annual(arguments: &AnnualArguments) -> Result<Exit, CliError> {
     let project = project::open(file)?;
     let settings = project::annual_settings(&project, arguments)?;
     let threads = count(arguments.threads);
-    let year = Year::new(&project, settings, &arguments.occupied, threads)?;
+    let year = Year::new(&project, settings, arguments.occupied.as_ref(), threads)?;
     let points = points(arguments, year.points())?;
     let folder = arguments.output.out.clone().unwrap_or_else(|| Folder::by_name(file));
     let Some(path) = &arguments.checkpoint else {

@@ -14,10 +14,10 @@ use crate::project::Project;
 use crate::results;
 use crate::year_file::{YearBlock, YearCost};
 use quasilux_report::annual::{
-    AnnualReport, AnnualRun, BlindsOfYear, Calendar, Dimming, PointOfHours, RoomOfYear, Thresholds,
+    AnnualReport, AnnualRun, BlindsOfYear, Calendar, Dimming, PointOfHours, RoomOfYear,
     annual_json, annual_table, sun_hours,
 };
-use quasilux_scene::{ElectricLight, Loaded, Scene, Sensor};
+use quasilux_scene::{ElectricLight, Loaded, Occupancy, Scene, Sensor, YearTerms};
 use quasilux_sky::Weather;
 use quasilux_transport::{
     Control, OtherRoom, PointOfYear, Settings, YearHours, YearObserver, YearProgress, YearRun,
@@ -36,7 +36,7 @@ pub(super) struct Year<'p> {
     weather: &'p Weather,
     calendar: Calendar,
     pub(super) settings: Settings,
-    occupied_h: Range<f64>,
+    terms: YearTerms,
     /// Zones of electric light without any daylight yet.
     dimmings: Vec<Dimming>,
     threads: usize,
@@ -89,11 +89,18 @@ impl<'p> Year<'p> {
     pub(super) fn new(
         project: &'p Project,
         settings: Settings,
-        occupied_h: &Range<f64>,
+        occupied_h: Option<&Range<f64>>,
         threads: usize,
     ) -> Result<Self, CliError> {
         let weather = weather(project)?;
-        let calendar = Calendar::new(weather, occupied_h).map_err(CliError::new)?;
+        let mut terms = project.loaded.annual.clone();
+        if let Some(hours) = occupied_h.cloned() {
+            terms.occupancy = match terms.occupancy {
+                Occupancy::Hours { days, .. } => Occupancy::Hours { hours, days },
+                Occupancy::Schedule { .. } => Occupancy::daily(hours),
+            };
+        }
+        let calendar = Calendar::new(weather, &terms.occupancy).map_err(CliError::new)?;
         let loaded = &project.loaded;
         let begin = |light: &ElectricLight| Dimming::begin(light.clone(), &loaded.scene);
         Ok(Self {
@@ -101,7 +108,7 @@ impl<'p> Year<'p> {
             weather,
             calendar,
             settings,
-            occupied_h: occupied_h.clone(),
+            terms,
             dimmings: loaded.electric_light.iter().map(begin).collect(),
             threads,
             pool: pool(threads)?,
@@ -158,7 +165,7 @@ impl<'p> Year<'p> {
         let other_rooms = rooms.iter().map(|(scene, is_own)| OtherRoom { scene, is_own });
         let other_rooms: Vec<OtherRoom<'_>> = other_rooms.collect();
         let hours = YearHours { skies: &self.calendar.skies, other_rooms: &other_rooms };
-        let thresholds = Thresholds::default();
+        let thresholds = self.terms.thresholds;
         let digest = |point: PointOfYear| {
             let is_dimmed = self.is_dimmed(point.number);
             let point = PointOfHours::new(point, &self.calendar, &thresholds);
@@ -267,8 +274,8 @@ impl<'p> Year<'p> {
             work: YearWork::default(),
             warnings: self.warnings(),
         };
-        let occupied_h = self.occupied_h.clone();
-        let mut report = AnnualReport::begin(scene, self.weather, &self.calendar, occupied_h, run);
+        let terms = self.terms.clone();
+        let mut report = AnnualReport::begin(scene, self.weather, &self.calendar, terms, run);
         report.dimmings.clone_from(&self.dimmings);
         report.blinds = self.blinds().cloned();
         let look = || sun_hours(scene, &self.calendar, &report.site, &report.run.settings);
