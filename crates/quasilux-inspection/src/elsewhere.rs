@@ -3,6 +3,7 @@
 use crate::finding::{Check, Findings};
 use crate::names;
 use crate::survey::{Survey, position_of};
+use crate::units;
 use glam::DVec3;
 
 /// What is this near to the geometry, in m, is beside it: a luminaire on the outside of a wall.
@@ -30,8 +31,11 @@ pub(crate) fn check(survey: &Survey<'_>, findings: &mut Findings<'_>) {
             names::position(low),
             names::position(high)
         );
-        let cure = "expected both in one room: the geometry may be in another unit (units in \
-                    [scene]), or far from its origin in the program that it comes from";
+        let cure = units::cure_of_all(scene, findings.places).unwrap_or_else(|| {
+            "expected both in one room: the geometry may be in another unit (units in [scene]), or \
+             far from its origin in the program that it comes from"
+                .to_owned()
+        });
         let place = findings.places.scene;
         findings.add(Check::GeometryElsewhere, place, message, cure).at(elsewhere[0]);
     }

@@ -5,7 +5,7 @@ use crate::finding::{Check, Findings};
 use crate::names;
 use crate::survey::position_of;
 use glam::DVec3;
-use quasilux_scene::{LengthUnit, Scene, SensorShape};
+use quasilux_scene::{LengthUnit, Places, Scene, SensorShape};
 
 /// Rooms are no higher, in m: the highest atria have 180 m, nearly all rooms below 30 m.
 const MAX_HEIGHT_M: f64 = 60.0;
@@ -112,6 +112,41 @@ pub(crate) fn cure(scene: &Scene, position: DVec3, thing: Thing) -> Option<Strin
          [scene] for all positions, or give this one in m",
         in_words(unit),
         unit.name()
+    ))
+}
+
+/// The unit of positions, or of geometry files, with which all lamps and points stand inside, the
+/// highest lamp in the upper half of a room; where several do, the one whose room is nearest to
+/// usual ones. `None` where no other unit explains it.
+pub(crate) fn cure_of_all(scene: &Scene, places: &Places) -> Option<String> {
+    let geometry = geometry(scene)?;
+    let positions = positions(scene);
+    let highest_m = scene.lights.iter().filter_map(position_of).map(|at| at.z).reduce(f64::max)?;
+    // Larger geometry is as if positions were smaller.
+    let fits = |factor: f64| {
+        let height = (highest_m * factor - geometry.low.z) / geometry.edges().z;
+        let are_held = positions.iter().all(|position| geometry.holds(*position * factor));
+        are_held && (LAMP_HEIGHT[0]..=LAMP_HEIGHT[1]).contains(&height)
+    };
+    let height_m = geometry.edges().z;
+    let keys = [("position_units", places.position_unit), ("units", places.unit)];
+    let candidates = keys.into_iter().flat_map(|it| LengthUnit::ALL.map(|to| (it, to)));
+    let fitting = candidates.filter_map(|((key, from), to)| {
+        let ratio = to.metres() / from.metres();
+        let (of_positions, height_m) = match key {
+            "units" => (1.0 / ratio, height_m * ratio),
+            _ => (ratio, height_m),
+        };
+        let off = libm::log(height_m / USUAL_HEIGHT_M).abs();
+        (to != from && fits(of_positions)).then_some((off, key, from, to))
+    });
+    let (_, key, from, to) = fitting.min_by(|a, b| a.0.total_cmp(&b.0))?;
+    Some(format!(
+        "all of them would be inside with {} in place of {}: if it is meant so, say {key} = \"{}\" \
+         in [scene]",
+        in_words(to),
+        in_words(from),
+        to.name()
     ))
 }
 

@@ -84,7 +84,8 @@ pub enum WarningKind {
     OpeningOfOtherEdition,
     /// The signs of the luminous dimensions stand for no shape. It is read as a point.
     UnknownOpening,
-    /// EULUMDAT: numbers are written with a decimal comma. It counts as a point.
+    /// Numbers are written with a decimal comma. It counts as a point; in LM-63, where commas
+    /// separate numbers, in files that make no luminaire with separators.
     DecimalComma,
     /// EULUMDAT: the line of a number that no intensity depends on is empty. It counts as zero.
     /// TM-33: the element of a number is empty. It counts as missing.
@@ -107,6 +108,9 @@ pub enum WarningKind {
     ZeroConversionFactor,
     /// EULUMDAT: the light output ratio is zero or empty. The flux is not compared with it.
     ZeroLightOutputRatio,
+    /// EULUMDAT: the share of the flux below the horizon is not that of the intensities. These
+    /// count; a share of 0 is taken for one that is not given.
+    DownwardFluxDiffers,
     /// EULUMDAT: the luminaire was tilted while it was measured. It is taken in the position it
     /// was measured in: the tilt is kept as a fact and turns nothing.
     MeasurementTilt,

@@ -2,7 +2,7 @@
 
 use crate::checks::{MAX_TRIANGLE_TESTS, holds_light};
 use crate::project::Project;
-use crate::solids::{Solid, solids_of};
+use crate::solids::{Solid, solids_among, solids_of};
 use crate::{Bsdf, LoadError, Rgb, Scene, Warning};
 
 /// Shares of light this near to 1 are whole.
@@ -53,14 +53,24 @@ pub(crate) fn glass_must_be_closed(scene: &Scene, project: &Project, warnings: &
             warnings.push(Warning::new(&project.file, None, message));
         }
     };
-    let solids = solids_of(&scene.mesh);
-    let glass = (0..scene.mesh.triangles.len() as u32).filter(is_glass).count();
-    let glass_of = |solid: &Solid| solid.triangles.iter().filter(|t| is_glass(t)).count();
-    let closed: usize = solids.iter().map(glass_of).sum();
-    let is_inside_out = |solid: &&Solid| solid.volume_m3(&scene.mesh) < 0.0;
-    let inside_out: usize = solids.iter().filter(is_inside_out).map(glass_of).sum();
+    let glass: Vec<u32> = (0..scene.mesh.triangles.len() as u32).filter(is_glass).collect();
+    // Of glass alone, or with others that close it, such as a silvered back. Edges of a wall that
+    // it fits into make the whole open.
+    let alone = solids_among(&scene.mesh, &glass);
+    let with_others = solids_of(&scene.mesh);
+    let mut is_closed = vec![false; scene.mesh.triangles.len()];
+    let mut is_inside_out = is_closed.clone();
+    for solid in alone.iter().chain(&with_others) {
+        let faces_inward = solid.volume_m3(&scene.mesh) < 0.0;
+        for &triangle in solid.triangles.iter().filter(|triangle| is_glass(triangle)) {
+            is_closed[triangle as usize] = true;
+            is_inside_out[triangle as usize] = faces_inward;
+        }
+    }
+    let count = |marks: &[bool]| marks.iter().filter(|is_so| **is_so).count();
+    let (closed, inside_out) = (count(&is_closed), count(&is_inside_out));
     warn(
-        glass - closed,
+        glass.len() - closed,
         "are not part of a closed body: light that enters there stays inside; kind = \"pane\" is \
          for single sheets",
     );

@@ -33,6 +33,21 @@ pub struct Solid {
     high: DVec3,
 }
 
+/// The solids that some triangles of a mesh, in ascending order, make by themselves.
+#[must_use]
+pub(crate) fn solids_among(mesh: &Mesh, triangles: &[u32]) -> Vec<Solid> {
+    let corners = |&triangle: &u32| mesh.triangles[triangle as usize];
+    let part = Mesh {
+        positions: mesh.positions.clone(),
+        triangles: triangles.iter().map(corners).collect(),
+        ..Mesh::default()
+    };
+    let mut solids = solids_of(&part);
+    let numbers = solids.iter_mut().flat_map(|solid| &mut solid.triangles);
+    numbers.for_each(|number| *number = triangles[*number as usize]);
+    solids
+}
+
 /// All solids of a mesh, in the order of their first triangles.
 #[must_use]
 pub fn solids_of(mesh: &Mesh) -> Vec<Solid> {

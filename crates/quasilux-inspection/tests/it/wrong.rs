@@ -179,6 +179,7 @@ fn scene(name: &'static str, case: Case, check: Check, cure: &'static str) -> Wr
 fn wrong_units() {
     let geometry = |factor: f64| Case::new().moved(|p| p * factor);
     let all = |factor: f64| geometry(factor).positions_scaled(factor);
+    let positions = |factor: f64| Case::new().positions_scaled(factor);
     let (both, away) = ("position_units", Check::GeometryElsewhere);
     told(vec![
         scene("OBJ in millimetres", geometry(1000.0), Check::Units, "units = \"mm\""),
@@ -188,6 +189,9 @@ fn wrong_units() {
         scene("OBJ in metres read as millimetres", geometry(0.001), Check::Units, "units"),
         scene("a kilometre away", Case::new().moved(|p| p + v(1000.0, 0.0, 0.0)), away, "origin"),
         scene("metres read as feet", geometry(0.3048), away, "units"),
+        scene("positions in feet", positions(1.0 / 0.3048), away, "position_units = \"ft\""),
+        scene("positions in inches", positions(1.0 / 0.0254), away, "position_units = \"in\""),
+        scene("positions in millimetres", positions(1000.0), away, "position_units = \"mm\""),
         scene("all in millimetres", all(1000.0), Check::Units, both),
         scene("all in centimetres", all(100.0), Check::Units, both),
         scene("all in inches", all(1.0 / 0.0254), Check::Units, both),

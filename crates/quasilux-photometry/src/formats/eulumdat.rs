@@ -77,6 +77,7 @@
 //! | [`ZeroLampCount`] | one lamp | `27:1: found 0; expected at least one lamp, or a negative number for absolute photometry` |
 //! | [`ZeroConversionFactor`] | 1 | `24:1: found 0; expected a conversion factor above 0 (read as 1)` |
 //! | [`ZeroLightOutputRatio`] | the flux is not compared | `23:1: found 0; expected a light output ratio in % (the flux is not compared with it)` |
+//! | [`DownwardFluxDiffers`] | the intensities count | `22:1: found a downward flux fraction of 90 %; expected 50.0 %, as the intensities have it (they count)` |
 //! | [`MeasurementTilt`] | kept as a fact, turns nothing | `25:1: found a tilt of 15 degrees during measurement; expected 0 (the tilt is not applied: the luminaire is taken as measured)` |
 //!
 //! [`Encoding`]: crate::WarningKind::Encoding
@@ -97,4 +98,5 @@
 //! [`ZeroLampCount`]: crate::WarningKind::ZeroLampCount
 //! [`ZeroConversionFactor`]: crate::WarningKind::ZeroConversionFactor
 //! [`ZeroLightOutputRatio`]: crate::WarningKind::ZeroLightOutputRatio
+//! [`DownwardFluxDiffers`]: crate::WarningKind::DownwardFluxDiffers
 //! [`MeasurementTilt`]: crate::WarningKind::MeasurementTilt

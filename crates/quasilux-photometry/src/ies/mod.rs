@@ -71,9 +71,21 @@ pub fn read_ies(bytes: &[u8]) -> Result<Parsed, ParseError> {
     let text = decode(bytes, &mut warnings);
     let lines: Vec<&str> = lines(&text).collect();
     let header = read_header(&lines, &mut warnings)?;
-    let mut numbers = Numbers::new(&lines, header.next_line);
-    let photometry = read_numbers(header, &mut numbers, &mut warnings)?;
-    Ok(Parsed { photometry, warnings: warnings.into_vec() })
+    let numbers = || Numbers::new(&lines, header.next_line);
+    let mut as_usual = warnings.clone();
+    let (table, facts) = match read_numbers(&header, &mut numbers(), &mut as_usual) {
+        Ok(read) => {
+            warnings = as_usual;
+            read
+        }
+        // Commas separate numbers. What makes no luminaire so may have decimal commas.
+        Err(refused) => {
+            let with_commas = &mut numbers().with_decimal_commas();
+            read_numbers(&header, with_commas, &mut warnings).map_err(|_| refused)?
+        }
+    };
+    let facts = LuminaireFacts { keywords: header.keywords, ..facts };
+    Ok(Parsed { photometry: Photometry::new(table, facts), warnings: warnings.into_vec() })
 }
 
 /// Record 1.
@@ -97,11 +109,12 @@ struct Factors {
     candela_factor: f64,
 }
 
+/// The light, and facts without the keywords of the header.
 fn read_numbers(
-    header: Header<'_>,
+    header: &Header<'_>,
     numbers: &mut Numbers<'_>,
     warnings: &mut Warnings,
-) -> Result<Photometry, ParseError> {
+) -> Result<(SphericalTable, LuminaireFacts), ParseError> {
     let tilt = match header.tilt {
         TiltLine::None => Tilt::None,
         TiltLine::Include => tilt::read_factors(numbers, warnings)?,
@@ -128,7 +141,7 @@ fn read_numbers(
     let facts = LuminaireFacts {
         standard,
         photometric_type: counts.photometric_type,
-        keywords: header.keywords,
+        keywords: Vec::new(),
         tilt,
         lamp_count: counts.lamp_count,
         lumens_per_lamp: (lumens.value >= 0.0).then_some(lumens.value),
@@ -142,7 +155,7 @@ fn read_numbers(
         eulumdat: None,
     };
     check_flux(&table, &facts, lumens.at, warnings);
-    Ok(Photometry::new(table, facts))
+    Ok((table, facts))
 }
 
 fn read_factors(

@@ -10,6 +10,8 @@ pub(super) struct Numbers<'t> {
     cursor: Cursor,
     /// The line of the number read last.
     last_line: Option<usize>,
+    /// Whether a comma is a decimal point, instead of a separator.
+    decimal_commas: bool,
 }
 
 /// A place to read on from.
@@ -27,7 +29,12 @@ impl<'t> Numbers<'t> {
     /// Starts at the line with index `line`.
     pub(super) fn new(lines: &'t [&'t str], line: usize) -> Self {
         let cursor = Cursor { line, byte: 0, characters: 0 };
-        Self { lines, cursor, last_line: None }
+        Self { lines, cursor, last_line: None, decimal_commas: false }
+    }
+
+    /// Numbers like 0,5: no comma separates two of them.
+    pub(super) fn with_decimal_commas(self) -> Self {
+        Self { decimal_commas: true, ..self }
     }
 
     /// The next number; `what` names it in an error.
@@ -36,7 +43,20 @@ impl<'t> Numbers<'t> {
         what: &str,
         warnings: &mut Warnings,
     ) -> Result<Number, ParseError> {
-        self.written(what, warnings)?.number(what)
+        let written = self.written(what, warnings)?;
+        self.number(written, what, warnings)
+    }
+
+    fn number(
+        &self,
+        written: Token<'t>,
+        what: &str,
+        warnings: &mut Warnings,
+    ) -> Result<Number, ParseError> {
+        match self.decimal_commas {
+            true => written.number_with_comma(what, warnings),
+            false => written.number(what),
+        }
     }
 
     /// The next number, which is a count of at least `least`.
@@ -47,7 +67,8 @@ impl<'t> Numbers<'t> {
         warnings: &mut Warnings,
     ) -> Result<Count, ParseError> {
         let written = self.written(what, warnings)?;
-        let value = written.count(written.number(what)?, what, least, warnings)?;
+        let number = self.number(written, what, warnings)?;
+        let value = written.count(number, what, least, warnings)?;
         Ok(Count { value, at: written.at })
     }
 
@@ -102,6 +123,7 @@ impl<'t> Numbers<'t> {
     fn token(&mut self, warnings: &mut Warnings) -> Option<Token<'t>> {
         while let Some(&line) = self.lines.get(self.cursor.line) {
             let rest = &line[self.cursor.byte..];
+            let is_separator = |c: char| is_blank(c) || (c == ',' && !self.decimal_commas);
             let skipped = rest.find(|c| !is_separator(c)).unwrap_or(rest.len());
             if let Some(semicolon) = rest[..skipped].find(';') {
                 let mut before = self.cursor;
@@ -145,8 +167,7 @@ impl Cursor {
     }
 }
 
-/// Blanks, commas, semicolons, and the control characters that old systems leave at the end of a
-/// file.
-fn is_separator(c: char) -> bool {
-    c.is_whitespace() || c.is_control() || matches!(c, ',' | ';')
+/// Blanks, semicolons, and the control characters that old systems leave at the end of a file.
+fn is_blank(c: char) -> bool {
+    c.is_whitespace() || c.is_control() || c == ';'
 }

@@ -21,6 +21,8 @@ pub(super) struct Header {
     pub(super) keywords: Vec<Keyword>,
     pub(super) layout: Layout,
     pub(super) opening: LuminousOpening,
+    /// The downward flux fraction in %.
+    pub(super) downward_percent: Number,
     /// Of the luminaire's flux and its lamps', where the file gives it.
     pub(super) light_output_ratio: Option<f64>,
     pub(super) conversion_factor: f64,
@@ -76,7 +78,8 @@ pub(super) fn read_header(
         keep(fields, name, what, &mut keywords)?;
     }
     let opening = read_opening(fields, &mut eulumdat, warnings)?;
-    fields.number_or_zero("the downward flux fraction in % (field 22)", warnings)?;
+    let downward_percent =
+        fields.number_or_zero("the downward flux fraction in % (field 22)", warnings)?;
     let light_output_ratio = read_ratio(fields, warnings)?;
     let conversion_factor = read_conversion(fields, warnings)?;
     let tilt = fields.number_or_zero("the tilt in degrees (field 25)", warnings)?;
@@ -95,6 +98,7 @@ pub(super) fn read_header(
         keywords,
         layout,
         opening,
+        downward_percent,
         light_output_ratio,
         conversion_factor,
         measurement_tilt_deg: tilt.value,

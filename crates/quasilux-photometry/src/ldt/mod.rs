@@ -55,6 +55,7 @@ use crate::{
     Grid, LuminaireFacts, Parsed, PhotometricType, Photometry, SphericalTable, Standard, Tilt,
 };
 use fields::Fields;
+use glam::DVec3;
 use header::{Header, LampSet, read_header};
 use planes::{check_distance, stored_planes};
 use quasilux_text::{ParseError, Position, Token, decode, lines, quoted};
@@ -62,6 +63,8 @@ pub use write::write_ldt;
 
 /// Lumens that the written intensities refer to.
 const REFERENCE_FLUX_LM: f64 = 1000.0;
+/// Downward flux fractions in % that are further from the table's are another luminaire's.
+const FRACTION_TOLERANCE_PERCENT: f64 = 5.0;
 
 /// Reads an EULUMDAT file. Total: any bytes give a luminaire or an error with its place, in
 /// no more memory than [`crate::max_read_memory_bytes`].
@@ -149,6 +152,13 @@ fn check_flux(table: &SphericalTable, header: &Header, warnings: &mut Warnings) 
     if flux_lm <= 0.0 {
         warnings.push(WarningKind::NoLight, at, "an integrated flux of 0 lm", "some light");
         return;
+    }
+    // The first coordinate of the horizon is the share of the flux below it.
+    let (said, found) = (header.downward_percent, 100.0 * table.invert(DVec3::X)[0]);
+    if said.value > 0.0 && (found - said.value).abs() > FRACTION_TOLERANCE_PERCENT {
+        let expected = format!("{found:.1} %, as the intensities have it (they count)");
+        let found = format!("a downward flux fraction of {} %", said.value);
+        warnings.push(WarningKind::DownwardFluxDiffers, said.at, found, expected);
     }
     let Some(ratio) = header.light_output_ratio else {
         return;

@@ -22,7 +22,7 @@ struct File {
 const ROTATIONAL: File = File {
     isym: "1",
     planes: ("0", "0"),
-    luminaire: "1200 300 80 1100 200 10 20 10 20 100 100 1 0",
+    luminaire: "1200 300 80 1100 200 10 20 10 20 50 100 1 0",
     lamps: "1\n1\nT\n1000\n3000K\n80\n20",
     intensities: "100",
 };
@@ -142,7 +142,7 @@ fn facts_are_kept() {
     let opening = facts.opening;
     assert_eq!((opening.width_m, opening.length_m, opening.height_m), (1.1, 0.2, 0.02));
 
-    let round = File { luminaire: "200 0 80 150 0 0 0 0 0 100 100 1 0", ..ROTATIONAL }.read();
+    let round = File { luminaire: "200 0 80 150 0 0 0 0 0 50 100 1 0", ..ROTATIONAL }.read();
     let opening = round.photometry.facts().opening;
     assert_eq!((opening.width_m, opening.length_m, opening.height_m), (-0.15, -0.15, 0.0));
 }
@@ -152,12 +152,13 @@ fn each_tolerated_deviation_is_reported() {
     let with = |luminaire| File { luminaire, ..ROTATIONAL };
     let closing = ("90", "0 90 180 270 360");
     let cases = [
-        (with("1200 300 80 1100 200 10 20 10 20 100 125,66 1 0"), WarningKind::DecimalComma),
-        (with("1200  80 1100 200 10 20 10 20 100 125.66 1 0"), WarningKind::EmptyNumber),
-        (with("1 1 1 1 1 0 0 0 0 100 0 1 0"), WarningKind::ZeroLightOutputRatio),
-        (with("1 1 1 1 1 0 0 0 0 100 125.66 0 0"), WarningKind::ZeroConversionFactor),
-        (with("1 1 1 1 1 0 0 0 0 100 125.66 1 15"), WarningKind::MeasurementTilt),
-        (with("1 1 1 1 1 0 0 0 0 100 90 1 0"), WarningKind::FluxDiffers),
+        (with("1200 300 80 1100 200 10 20 10 20 50 125,66 1 0"), WarningKind::DecimalComma),
+        (with("1200  80 1100 200 10 20 10 20 50 125.66 1 0"), WarningKind::EmptyNumber),
+        (with("1 1 1 1 1 0 0 0 0 50 0 1 0"), WarningKind::ZeroLightOutputRatio),
+        (with("1 1 1 1 1 0 0 0 0 50 125.66 0 0"), WarningKind::ZeroConversionFactor),
+        (with("1 1 1 1 1 0 0 0 0 50 125.66 1 15"), WarningKind::MeasurementTilt),
+        (with("1 1 1 1 1 0 0 0 0 50 90 1 0"), WarningKind::FluxDiffers),
+        (with("1 1 1 1 1 0 0 0 0 90 125.66 1 0"), WarningKind::DownwardFluxDiffers),
         (File { planes: ("30", "0 90 180 270"), ..ROTATIONAL }, WarningKind::AngleDistance),
         (File { isym: "0", ..ROTATIONAL }, WarningKind::SinglePlaneWithoutSymmetry),
         (

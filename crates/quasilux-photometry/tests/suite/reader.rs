@@ -201,3 +201,24 @@ fn a_file_may_be_one_long_line() {
     assert_eq!(deviations(&read), [WarningKind::RecordStart]);
     assert_eq!(read.warnings[0].count(), planes + 3);
 }
+
+/// Commas separate numbers by the standard, and are decimal points in files of some countries: what
+/// a file means is what makes a luminaire.
+#[test]
+fn decimal_commas_are_read_where_commas_separate_nothing() {
+    let pointed = "IESNA:LM-63-2002\nTILT=NONE\n1 1000 0.5 3 1 1 2 0.2 1.25 0\n1 1 24.5\n\
+        0 45.5 90\n0\n900.5 600.25 0\n";
+    let expected = read(pointed).photometry;
+    let commas = read(&pointed.replace('.', ","));
+    assert_eq!(commas.photometry.facts().opening, expected.facts().opening);
+    assert_eq!(commas.photometry.flux_lm(), expected.flux_lm());
+    assert!(deviations(&commas).contains(&WarningKind::DecimalComma));
+    let separated = read(&pointed.replace(' ', ","));
+    assert_eq!(separated.photometry.flux_lm(), expected.flux_lm());
+    assert!(!deviations(&separated).contains(&WarningKind::DecimalComma));
+    // What makes no luminaire either way is refused as it stands there.
+    let broken = pointed.replace("900.5", "900,5");
+    let refused = read_ies(broken.as_bytes()).unwrap_err();
+    assert!(refused.to_string().contains("expected"), "{refused}");
+    let _ = read_ies(broken.replace("600.25", "x").as_bytes()).unwrap_err();
+}

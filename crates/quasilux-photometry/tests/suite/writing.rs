@@ -68,6 +68,7 @@ fn is_about_content(deviation: WarningKind) -> bool {
             | WarningKind::TiltFactors
             | WarningKind::TiltFile
             | WarningKind::SeveralLampSets
+            | WarningKind::DownwardFluxDiffers
             | WarningKind::MeasurementTilt
             | WarningKind::ClosingPlaneDiffers
             | WarningKind::OpeningOfOtherEdition

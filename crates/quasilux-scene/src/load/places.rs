@@ -19,6 +19,8 @@ pub struct Places {
     pub y_is_up: bool,
     /// The unit of the geometry files.
     pub unit: LengthUnit,
+    /// The unit of the project file's own positions.
+    pub position_unit: LengthUnit,
     /// Of each light of the scene.
     pub lights: Vec<Position>,
     /// The luminaire file of each light of the scene; `None` for other lights.
@@ -58,6 +60,7 @@ impl Places {
             geometry: project.geometry.clone(),
             y_is_up: project.up == Some(UpAxis::Y),
             unit: project.unit,
+            position_unit: project.position_unit,
             photometry: (0..project.luminaires.len() + project.lights.len()).map(file_of).collect(),
             lights: luminaires.chain(others).collect(),
             sensors: project.sensors.iter().map(|entry| entry.place).collect(),

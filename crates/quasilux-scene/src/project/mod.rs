@@ -61,6 +61,8 @@ pub(crate) struct Project {
     pub(crate) up: Option<UpAxis>,
     /// Of the geometry files.
     pub(crate) unit: LengthUnit,
+    /// Of positions and lengths of the project file.
+    pub(crate) position_unit: LengthUnit,
     /// What lights give in use over what they give when new, in (0, 1].
     pub(crate) maintenance_factor: f64,
     pub(crate) materials: Vec<MaterialEntry>,
@@ -155,6 +157,7 @@ impl Project {
             scene_place,
             up,
             unit,
+            position_unit,
             maintenance_factor,
             materials,
             luminaires,

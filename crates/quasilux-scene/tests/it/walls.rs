@@ -80,6 +80,12 @@ fn glass_is_closed_and_faces_outward() {
     };
     let obj = box_obj("glass", [0.0; 3], [1.0; 3], 1);
     assert!(warnings(&obj).is_empty(), "{:?}", warnings(&obj));
+    // Flush with a wall, whose edges are those of the glass.
+    let wall = "usemtl plaster\nv 0 0 -2\nv 1 0 -2\nf 1 2 10\nf 2 10 9\n";
+    let plaster = format!("{glass}[materials.plaster]\nreflectance = 0.5\n");
+    let files = MapFiles::room().with("room.obj", obj.clone() + wall);
+    let flush = load_text(&(PROJECT.to_owned() + &plaster), &files).unwrap();
+    assert!(flush.warnings.is_empty(), "{:?}", flush.warnings);
     let open = obj.rsplit_once("f ").unwrap().0;
     assert!(
         warnings(open)[0].contains("10 triangles of kind \"dielectric\" are not part of a closed")

@@ -302,7 +302,8 @@ fn terms_of_a_year_that_make_no_sense_are_refused() {
     .into_iter()
     .enumerate()
     {
-        let folder = folder(&format!("annual_terms_{number}"), &format!("{WEATHER}[annual]\n{annual}"));
+        let folder =
+            folder(&format!("annual_terms_{number}"), &format!("{WEATHER}[annual]\n{annual}"));
         let refused = folder.quasilux(&["annual", "a.toml"]);
         assert_eq!(refused.code, Some(2), "{annual}: {}", refused.stdout);
         assert!(refused.stderr.contains(words), "{annual}: {}", refused.stderr);
