@@ -1,6 +1,7 @@
 //! The instruction sets of the traversal, and the one place that dispatches to them.
 
 use crate::lanes::{Lanes, Portable};
+use std::sync::OnceLock;
 
 /// Which instructions are used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -15,28 +16,25 @@ pub enum SimdLevel {
     Avx512,
 }
 
-/// Asks for one of [`SimdLevel::all`] by its name, for tests: no result depends on it.
-const VARIABLE: &str = "QUASILUX_KERNEL";
+/// The one that was chosen for this process.
+static CHOSEN: OnceLock<SimdLevel> = OnceLock::new();
 
 impl SimdLevel {
-    /// That which the environment variable `QUASILUX_KERNEL` names, or where it is not set or
-    /// empty the fastest.
-    ///
-    /// # Errors
-    /// In words, where it names none that this machine can run.
-    pub fn chosen() -> Result<Self, String> {
-        match std::env::var_os(VARIABLE) {
-            Some(name) if !name.is_empty() => Self::named(&name.to_string_lossy()),
-            _ => Ok(Self::fastest()),
-        }
+    /// The one that was chosen for this process, or else the fastest.
+    #[must_use]
+    pub fn chosen() -> Self {
+        CHOSEN.get().copied().unwrap_or_else(Self::fastest)
     }
 
-    fn named(name: &str) -> Result<Self, String> {
-        let all = Self::all();
-        all.iter().copied().find(|level| level.name() == name).ok_or_else(|| {
-            let names: Vec<&str> = all.into_iter().map(Self::name).collect();
-            format!("{VARIABLE} is {name:?}; expected one of {}, or nothing", names.join(", "))
-        })
+    /// Chooses one for this process, once for all, for tests: no result depends on it.
+    pub fn choose(self) {
+        CHOSEN.get_or_init(|| self);
+    }
+
+    /// The one with a name, if this machine can run it.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        Self::all().into_iter().find(|level| level.name() == name)
     }
 
     /// What it is called: `portable`, `avx2` or `avx512`.
@@ -119,9 +117,8 @@ mod tests {
     #[test]
     fn each_is_found_by_its_name_and_no_other() {
         for level in SimdLevel::all() {
-            assert_eq!(SimdLevel::named(level.name()), Ok(level));
+            assert_eq!(SimdLevel::named(level.name()), Some(level));
         }
-        let refusal = SimdLevel::named("sse9").unwrap_err();
-        assert!(refusal.contains("\"sse9\"; expected one of portable"), "{refusal}");
+        assert_eq!(SimdLevel::named("sse9"), None);
     }
 }

@@ -87,17 +87,13 @@ impl<'a> Survey<'a> {
             (0..scene.cameras.len()).map(|camera| seen_by_camera(probe, camera)).collect();
         let [least, most] = LAMP_WALKS;
         let walks = (ALL_LAMP_WALKS / scene.lights.len().max(1) as u32).clamp(least, most);
-        let lamp_vertices: Vec<_> =
-            scene.lights.iter().map(|lamp| lit_by(probe, lamp, walks)).collect();
-        let all: Vec<Vertex> = lamp_vertices.iter().flatten().copied().collect();
-        let stride = all.len().div_ceil(MAX_PAIRS).max(1);
         let cameras = || camera_vertices.iter().flatten().copied();
         let points = asked_vertices.iter().filter_map(|vertices| vertices.first().copied());
         let mut survey = Self {
             probe,
             receivers: points.chain(cameras()).collect(),
             eyes: asked_vertices.iter().flatten().copied().chain(cameras()).collect(),
-            lit: all.into_iter().step_by(stride).collect(),
+            lit: Vec::new(),
             asked,
             asked_vertices,
             camera_vertices,
@@ -105,11 +101,19 @@ impl<'a> Survey<'a> {
             is_lit: Vec::new(),
             is_open: false,
         };
-        let lamps = scene.lights.iter().zip(&lamp_vertices);
-        let reaches = |(lamp, lit): (&Light, &Vec<Vertex>)| {
-            survey.shines(lamp, &survey.eyes) || survey.meet(lit, &survey.eyes)
-        };
-        survey.reaches = lamps.map(reaches).collect();
+        // Of each lamp as many of its places as all lamps have room for, or of each so many lamps
+        // one. All places of many lamps would take more memory than the lamps.
+        let each = (MAX_PAIRS / scene.lights.len().max(1)).max(1);
+        let stride = scene.lights.len().div_ceil(MAX_PAIRS).max(1);
+        for (number, lamp) in scene.lights.iter().enumerate() {
+            let lit = lit_by(probe, lamp, walks);
+            let reaches = survey.shines(lamp, &survey.eyes) || survey.meet(&lit, &survey.eyes);
+            survey.reaches.push(reaches);
+            if number % stride == 0 {
+                let step = lit.len().div_ceil(each).max(1);
+                survey.lit.extend(lit.into_iter().step_by(step));
+            }
+        }
         let is_lit = |vertices: &Vec<Vertex>| survey.is_lit(vertices);
         survey.is_lit = survey.asked_vertices.iter().map(is_lit).collect();
         survey.is_open = survey.is_open();

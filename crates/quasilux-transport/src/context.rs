@@ -158,8 +158,7 @@ impl Stream {
 
 impl<'a, S: Spectrum> Context<'a, S> {
     pub(crate) fn new(scene: impl Into<PreparedScene<'a>>, settings: &'a Settings) -> Self {
-        let simd = SimdLevel::chosen().unwrap_or_else(|_| SimdLevel::fastest());
-        Self::on(simd, scene, settings)
+        Self::on(SimdLevel::chosen(), scene, settings)
     }
 
     /// The same for a ray kernel of choice: no result depends on it.

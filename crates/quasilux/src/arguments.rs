@@ -21,10 +21,10 @@ pub(crate) use points::PointsArguments;
 pub(crate) use refusal::{refusal, unknown_command};
 pub(crate) use sky::{Days, SkyArguments};
 
+use crate::kernel;
 use clap::builder::{PossibleValue, PossibleValuesParser};
 use clap::{Args, CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
-use quasilux_bvh::SimdLevel;
 use quasilux_experiments::{EXPERIMENTS, Experiment};
 use quasilux_sampling::Sequence;
 use quasilux_transport::{EstimatorKind, IntervalKind, ToleranceOn, UnseenTolerance};
@@ -35,7 +35,7 @@ use values::{duration, illuminance, level, one_of, share, unseen_tolerance, whol
 
 /// How many lux, and how sure: a lighting simulator.
 #[derive(Debug, Parser)]
-#[command(version, long_version = kernels(), about, arg_required_else_help = true)]
+#[command(version, long_version = version(), about, arg_required_else_help = true)]
 pub(crate) struct Arguments {
     #[command(subcommand)]
     pub(crate) command: Command,
@@ -78,14 +78,10 @@ pub(crate) enum Command {
 }
 
 /// The version, and which kernel traces rays here.
-fn kernels() -> &'static str {
-    static KERNELS: LazyLock<String> = LazyLock::new(|| {
-        let names: Vec<&str> = SimdLevel::all().into_iter().map(SimdLevel::name).collect();
-        let chosen = SimdLevel::chosen().map_or("none", SimdLevel::name);
-        let version = env!("CARGO_PKG_VERSION");
-        format!("{version}\nray kernel: {chosen}, of {} on this machine", names.join(", "))
-    });
-    &KERNELS
+fn version() -> &'static str {
+    static VERSION: LazyLock<String> =
+        LazyLock::new(|| format!("{}\n{}", env!("CARGO_PKG_VERSION"), kernel::text()));
+    &VERSION
 }
 
 impl Arguments {

@@ -11,19 +11,24 @@ use quasilux_transport::{EstimatorKind, MemoryNeed, Settings};
 const PROGRAM_BYTES: u64 = 26 << 20;
 const PATH_THREAD_BYTES: u64 = 1 << 20;
 const PHOTON_THREAD_BYTES: u64 = 4 << 20;
+/// Of each byte of a project file while it is read: the most is gone before a run begins.
+const READ_BYTES: u64 = 40;
 
 /// Who works on what, and what that takes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Forecast<'a> {
     pub(crate) scene: &'a Scene,
+    file_bytes: u64,
     pub(crate) settings: &'a Settings,
     pub(crate) threads: usize,
     need: MemoryNeed,
 }
 
 impl<'a> Forecast<'a> {
-    pub(crate) fn new(scene: &'a Scene, settings: &'a Settings, threads: usize) -> Self {
-        Self { scene, settings, threads, need: MemoryNeed::new(scene, settings) }
+    pub(crate) fn new(loaded: &'a Loaded, settings: &'a Settings, threads: usize) -> Self {
+        let Loaded { scene, places, .. } = loaded;
+        let need = MemoryNeed::new(scene, settings);
+        Self { scene, file_bytes: places.file_bytes, settings, threads, need }
     }
 
     /// Memory of the program for a run of so many samples; for one of any number with `None`.
@@ -35,8 +40,10 @@ impl<'a> Forecast<'a> {
             | EstimatorKind::Bidirectional
             | EstimatorKind::BidirectionalMap => PHOTON_THREAD_BYTES,
         };
-        let program_bytes = PROGRAM_BYTES + self.threads as u64 * thread_bytes;
-        self.need.total_bytes(samples).saturating_add(program_bytes)
+        let of_run = self.need.total_bytes(samples);
+        let of_threads = self.threads as u64 * thread_bytes;
+        let most = of_run.saturating_add(of_threads).max(READ_BYTES * self.file_bytes);
+        most.saturating_add(PROGRAM_BYTES)
     }
 }
 
@@ -49,7 +56,7 @@ pub(crate) fn expect_memory(loaded: &Loaded, settings: &Settings) -> Result<(), 
 }
 
 fn expect_bytes(loaded: &Loaded, settings: &Settings, available: u64) -> Result<(), CliError> {
-    let bytes = Forecast::new(&loaded.scene, settings, 1).bytes(settings.max_samples);
+    let bytes = Forecast::new(loaded, settings, 1).bytes(settings.max_samples);
     if bytes <= available {
         return Ok(());
     }

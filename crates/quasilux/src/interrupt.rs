@@ -32,6 +32,18 @@ pub(crate) fn listen() -> Result<(), CliError> {
     .map_err(|error| CliError::new(format!("cannot listen for interrupts: {error}")))
 }
 
+/// From now on a file that grows beyond what this process may write is an error of that file, as a
+/// full disk is, and not the end of the process.
+pub(crate) fn survive_file_limits() {
+    #[cfg(any(target_os = "linux", target_os = "macos"))]
+    {
+        const SIGXFSZ: i32 = 25;
+        let nobody_asks = std::sync::Arc::default();
+        // Without it the process ends as it did.
+        _ = signal_hook::flag::register(SIGXFSZ, nobody_asks);
+    }
+}
+
 /// Whether the user has asked to stop.
 pub(crate) fn requested() -> bool {
     let is_requested = INTERRUPTED.load(Ordering::Relaxed);

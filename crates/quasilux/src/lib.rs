@@ -21,6 +21,7 @@ mod forecast;
 mod heartbeat;
 mod input;
 mod interrupt;
+mod kernel;
 mod machine;
 mod meter;
 mod names;
@@ -38,19 +39,19 @@ use clap::Parser;
 use exit::CliError;
 pub use exit::Exit;
 use print::tell;
-use quasilux_bvh::SimdLevel;
 use std::ffi::OsString;
 use std::io::{self, ErrorKind, Write};
 
 /// Does what a command line asks for; the first of its words is the name of the program.
 pub fn command_line(words: impl IntoIterator<Item = OsString>) -> Exit {
+    interrupt::survive_file_limits();
+    if let Err(refusal) = kernel::choose() {
+        return refuse(&refusal);
+    }
     let arguments = match Arguments::try_parse_from(words) {
         Ok(arguments) => arguments,
         Err(message) => return explain(&message),
     };
-    if let Err(refusal) = SimdLevel::chosen() {
-        return refuse(&CliError::new(refusal));
-    }
     let outcome = match arguments.command {
         Command::Run(arguments) => commands::run(&arguments),
         Command::Validate(arguments) => commands::validate(&arguments),

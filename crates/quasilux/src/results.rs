@@ -51,9 +51,36 @@ impl<'a> ResultFile<'a> {
 }
 
 /// Writes everything; each file appears whole or not at all.
+///
+/// # Errors
+/// When a file cannot be written. What a run found is not lost then: all files are in a folder of
+/// their own among those for a short time, if they can be written there, and the error says where.
 pub(crate) fn write(folder: &Path, report: &Report, of: PictureOf<'_>) -> Result<(), CliError> {
-    files(report, of)
-        .try_for_each(|ResultFile { name, render }| write_atomic(&folder.join(name), &render()))
+    rescued(folder, |folder| {
+        files(report, of)
+            .try_for_each(|ResultFile { name, render }| write_atomic(&folder.join(name), &render()))
+    })
+}
+
+/// Writes results to a folder, which is made again if it has gone; where that fails, among the
+/// files for a short time.
+///
+/// # Errors
+/// When they cannot be written to the folder; where they are instead.
+pub(crate) fn rescued(
+    folder: &Path,
+    write: impl Fn(&Path) -> Result<(), CliError>,
+) -> Result<(), CliError> {
+    let Err(error) = prepare(folder).and_then(|()| write(folder)) else { return Ok(()) };
+    let elsewhere = std::env::temp_dir().join(format!("quasilux-{}", std::process::id()));
+    Err(match prepare(&elsewhere).and_then(|()| write(&elsewhere)) {
+        Ok(()) => error.with_advice(&format!("; all of them are in {}", elsewhere.display())),
+        Err(_) => {
+            // Half of them are of no use, and may take the last of a disk.
+            _ = std::fs::remove_dir_all(&elsewhere);
+            error
+        }
+    })
 }
 
 /// All files of results.
@@ -131,6 +158,7 @@ pub(crate) fn stream_atomic(
         .map_err(|error| cannot_write(path, &error))
 }
 
-fn cannot_write(path: &Path, error: &io::Error) -> CliError {
+/// Says of a file of results that it cannot be written.
+pub(crate) fn cannot_write(path: &Path, error: &io::Error) -> CliError {
     CliError::in_file(path.display(), None, format!("cannot write results: {error}"))
 }

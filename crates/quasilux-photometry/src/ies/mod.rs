@@ -73,7 +73,7 @@ pub fn read_ies(bytes: &[u8]) -> Result<Parsed, ParseError> {
     let header = read_header(&lines, &mut warnings)?;
     let numbers = || Numbers::new(&lines, header.next_line);
     let mut as_usual = warnings.clone();
-    let (table, facts) = match read_numbers(&header, &mut numbers(), &mut as_usual) {
+    let Records { table, facts } = match read_numbers(&header, &mut numbers(), &mut as_usual) {
         Ok(read) => {
             warnings = as_usual;
             read
@@ -109,12 +109,17 @@ struct Factors {
     candela_factor: f64,
 }
 
-/// The light, and facts without the keywords of the header.
+/// What the records say: the light, and facts without the keywords of the header.
+struct Records {
+    table: SphericalTable,
+    facts: LuminaireFacts,
+}
+
 fn read_numbers(
     header: &Header<'_>,
     numbers: &mut Numbers<'_>,
     warnings: &mut Warnings,
-) -> Result<(SphericalTable, LuminaireFacts), ParseError> {
+) -> Result<Records, ParseError> {
     let tilt = match header.tilt {
         TiltLine::None => Tilt::None,
         TiltLine::Include => tilt::read_factors(numbers, warnings)?,
@@ -155,7 +160,7 @@ fn read_numbers(
         eulumdat: None,
     };
     check_flux(&table, &facts, lumens.at, warnings);
-    Ok((table, facts))
+    Ok(Records { table, facts })
 }
 
 fn read_factors(

@@ -50,16 +50,6 @@ struct SensorEntry<'a> {
 pub fn annual_json(report: &AnnualReport<'_>) -> String {
     let run = &report.run;
     let calendar = report.calendar;
-    let (occupied_h, occupied_days) = match &report.occupancy {
-        Occupancy::Schedule { .. } => (None, "schedule"),
-        Occupancy::Hours { hours, days } => (
-            Some([hours.start, hours.end]),
-            match days {
-                OccupiedDays::All => "all",
-                OccupiedDays::Weekdays { .. } => "weekdays",
-            },
-        ),
-    };
     let sensors = report.sensors().zip(report.summaries()).map(|(of, summary)| {
         let SensorPoints { sensor, points, sun_hours, .. } = of;
         let places = sensor.points();
@@ -87,16 +77,7 @@ pub fn annual_json(report: &AnnualReport<'_>) -> String {
             "longitude_deg": report.site.longitude_deg(),
             "time_zone_h": report.site.time_zone_h(),
         }),
-        hours: json!({
-            "intervals": calendar.intervals.len(),
-            "interval_h": calendar.interval_h,
-            "unknown": calendar.count(|it| !it.is_known),
-            "lit": calendar.skies.len(),
-            "occupied": calendar.count(|it| it.is_occupied),
-            "daylit": calendar.count(|it| it.is_daylit),
-            "occupied_h": occupied_h,
-            "occupied_days": occupied_days,
-        }),
+        hours: hours_entry(report),
         blinds: report.blinds.as_ref().map(|blinds| blinds_entry(blinds, calendar)),
         electric_light: electric_light(report),
         thresholds: json!({
@@ -107,6 +88,31 @@ pub fn annual_json(report: &AnnualReport<'_>) -> String {
         sensors: sensors.collect(),
         run: run_entry(run),
         warnings: &run.warnings,
+    })
+}
+
+/// Which intervals count for what.
+fn hours_entry(report: &AnnualReport<'_>) -> Value {
+    let calendar = report.calendar;
+    let (occupied_h, occupied_days) = match &report.occupancy {
+        Occupancy::Schedule { .. } => (None, "schedule"),
+        Occupancy::Hours { hours, days } => (
+            Some([hours.start, hours.end]),
+            match days {
+                OccupiedDays::All => "all",
+                OccupiedDays::Weekdays { .. } => "weekdays",
+            },
+        ),
+    };
+    json!({
+        "intervals": calendar.intervals.len(),
+        "interval_h": calendar.interval_h,
+        "unknown": calendar.count(|it| !it.is_known),
+        "lit": calendar.skies.len(),
+        "occupied": calendar.count(|it| it.is_occupied),
+        "daylit": calendar.count(|it| it.is_daylit),
+        "occupied_h": occupied_h,
+        "occupied_days": occupied_days,
     })
 }
 

@@ -4,6 +4,7 @@
 //! `KHR_mesh_quantization` for positions of 8 and 16 bits. Nothing is copied, so a count in a
 //! header costs nothing: the bytes behind it must exist.
 
+use super::gltf_elements::{Elements, first, whole};
 use super::gltf_sparse::Replaced;
 use ::gltf::accessor::{DataType, Dimensions};
 use glam::DVec3;
@@ -25,13 +26,6 @@ struct Number {
     data_type: DataType,
     /// Whether whole numbers stand for 0 to 1 or -1 to 1.
     is_normalized: bool,
-}
-
-/// Elements at equal distances; all of them lie within the bytes.
-#[derive(Debug)]
-pub(super) struct Elements<'b> {
-    bytes: &'b [u8],
-    stride: usize,
 }
 
 impl<'b> Accessor<'b> {
@@ -112,44 +106,6 @@ impl<'b> Accessor<'b> {
     }
 }
 
-impl<'b> Elements<'b> {
-    /// Of a view of a buffer, from an offset on: so many elements of so many bytes.
-    pub(super) fn new(
-        name: &str,
-        view: &::gltf::buffer::View<'_>,
-        offset: usize,
-        buffers: &'b [Arc<Vec<u8>>],
-        [count, size]: [usize; 2],
-    ) -> Result<Self, String> {
-        let stride = view.stride().unwrap_or(size);
-        if stride < size {
-            return Err(format!("{name} has a stride of {stride}; expected {size} or more"));
-        }
-        let bytes = buffers
-            .get(view.buffer().index())
-            .and_then(|buffer| buffer.get(view.offset()..)?.get(..view.length()))
-            .ok_or_else(|| format!("buffer view {} reaches beyond its buffer", view.index()))?;
-        let bytes = bytes.get(offset..).unwrap_or_default();
-        let needed = match count.checked_sub(1) {
-            None => Some(0),
-            Some(steps) => stride.checked_mul(steps).and_then(|n| n.checked_add(size)),
-        };
-        if needed.is_none_or(|needed| needed > bytes.len()) {
-            return Err(format!(
-                "{name} says {count} elements; expected no more than its buffer view of {} bytes \
-                 holds",
-                view.length()
-            ));
-        }
-        Ok(Self { bytes, stride })
-    }
-
-    /// From the first byte of element `i` on, which must be below the count.
-    pub(super) fn element(&self, i: usize) -> &'b [u8] {
-        &self.bytes[i * self.stride..]
-    }
-}
-
 impl Number {
     fn read(self, bytes: &[u8]) -> f64 {
         let scaled = |value: f64, most: f64| match self.is_normalized {
@@ -165,17 +121,4 @@ impl Number {
             DataType::F32 => f64::from(f32::from_le_bytes(first(bytes))),
         }
     }
-}
-
-/// An unsigned integer of 1, 2 or 4 bytes.
-pub(super) fn whole(bytes: &[u8], size: usize) -> usize {
-    match size {
-        1 => usize::from(bytes[0]),
-        2 => usize::from(u16::from_le_bytes(first(bytes))),
-        _ => u32::from_le_bytes(first(bytes)) as usize,
-    }
-}
-
-fn first<const N: usize>(bytes: &[u8]) -> [u8; N] {
-    std::array::from_fn(|byte| bytes[byte])
 }

@@ -2,7 +2,7 @@
 //!
 //! glTF 2.0 Specification (2021), section 3.6.2.3.
 
-use super::gltf_accessor::{Elements, whole};
+use super::gltf_elements::{Elements, whole};
 use ::gltf::accessor::sparse::{IndexType, Sparse};
 use std::sync::Arc;
 

@@ -11,6 +11,7 @@ mod data_uri;
 mod gltf;
 mod gltf_accessor;
 mod gltf_buffers;
+mod gltf_elements;
 mod gltf_primitive;
 mod gltf_sparse;
 mod mtl;

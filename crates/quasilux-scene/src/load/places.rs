@@ -11,6 +11,8 @@ use std::collections::HashMap;
 pub struct Places {
     /// What messages call the project file.
     pub file: String,
+    /// How long the project file is.
+    pub file_bytes: u64,
     /// The section of the geometry.
     pub scene: Position,
     /// Names of the geometry files, as the project file writes them.
@@ -56,6 +58,7 @@ impl Places {
         let has_default = place_of(crate::geometry::DEFAULT_MATERIAL).is_some();
         Self {
             file: project.file.clone(),
+            file_bytes: 0,
             scene: project.scene_place,
             geometry: project.geometry.clone(),
             y_is_up: project.up == Some(UpAxis::Y),

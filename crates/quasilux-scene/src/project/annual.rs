@@ -110,8 +110,8 @@ fn thresholds(section: &Section<'_>) -> Result<Thresholds, LoadError> {
     let [least_lx, most_lx] = useful_lx;
     if !(0.0 < least_lx && least_lx <= enough_lx && enough_lx <= most_lx) {
         return Err(section.error(format!(
-            "useful_lx is {least_lx} to {most_lx}, and enough_lx {enough_lx}; expected enough light \
-             to be of use"
+            "useful_lx is {least_lx} to {most_lx}, and enough_lx {enough_lx}; expected enough \
+             light to be of use"
         )));
     }
     Ok(Thresholds { enough_lx, useful_lx, sunlight_lx })

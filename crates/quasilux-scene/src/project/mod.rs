@@ -122,7 +122,6 @@ impl Project {
         let table = table_of(&source, text)?;
         let root = source.root(table.get_ref());
         root.only(&SECTIONS, &[])?;
-
         let SceneSection {
             geometry,
             place: scene_place,

@@ -83,7 +83,8 @@ fn groups_of_blinds_make_rooms() {
         "[[blinds]]\nname = \"south\"\n[[blinds.states]]\nname = \"half\"\n\
          geometry = [\"half.obj\"]\n[[blinds.states]]\nname = \"shut\"\n\
          geometry = [\"slats.obj\"]\nmaterials.slat.reflectance = 0.5\n\
-         [[blinds]]\nname = \"west\"\nmaterials.{name} = {{ kind = \"mirror\", reflectance = 0.9 }}\n\
+         [[blinds]]\nname = \"west\"\nmaterials.{name} = {{ kind = \"mirror\", \
+         reflectance = 0.9 }}\n\
          control = \"schedule\"\nschedule = \"hours.csv\"\ncolumn = \"south\"\n"
     );
     let files = |text: &str| {

@@ -114,11 +114,10 @@ impl SunDisks {
     }
 
     /// What the suns of hours give by the rays that decide, in lx.
-    pub(super) fn glances<'a>(
-        &'a self,
-        suns: &'a [ShiningSun],
-    ) -> impl Iterator<Item = (usize, f64)> {
-        self.seen.iter().map(|disk| (suns[disk.sun].hour, disk.glanced_lx))
+    pub(super) fn glances<'a>(&'a self, suns: &'a [ShiningSun]) -> impl Iterator<Item = SunLight> {
+        let glance =
+            |disk: &SeenDisk| SunLight { hour: suns[disk.sun].hour, lx: disk.glanced_lx as f32 };
+        self.seen.iter().map(glance)
     }
 
     /// Has a replicate look at them as often as so many paths want; returns the rays.

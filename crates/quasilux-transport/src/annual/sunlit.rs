@@ -1,6 +1,6 @@
 //! Which points the sun shines on: how many, hour by hour, is what blinds are closed by.
 
-use super::sun_disks::{ShiningSun, SunDisks, ask};
+use super::sun_disks::{ShiningSun, SunDisks, SunLight, ask};
 use super::year::lit;
 use crate::context::Context;
 use crate::settings::Settings;
@@ -52,7 +52,7 @@ pub fn sunlit_points(
         let glance = |context: &Context<'_, Rgb>| {
             let mut all_lx = vec![0.0; hours.len()];
             let disks = SunDisks::new(context, target, &suns, 0);
-            disks.glances(&suns).for_each(|(hour, lx)| all_lx[hour] = lx);
+            disks.glances(&suns).for_each(|SunLight { hour, lx }| all_lx[hour] = f64::from(lx));
             all_lx
         };
         let there = there.as_ref().map(glance);

@@ -6,6 +6,7 @@
 //! start where they come in.
 
 mod area_luminaires;
+mod asked_tables;
 mod bright_sky;
 mod coarse_facets;
 mod coarse_lights;
@@ -20,12 +21,13 @@ mod sun_ways;
 mod suns;
 
 pub(crate) use area_luminaires::{AreaLuminaires, ChosenPlace};
+pub(crate) use asked_tables::tables_bytes;
 pub(crate) use coarse_lights::coarse_tables_bytes;
 pub(crate) use emitting_facets::{EmitterPoint, Emitters};
 pub(crate) use facet_group::EmitterPlace;
 pub(crate) use outside::{DrawnDirection, Line, OnwardDirection, OutsideLight, SKY_MARGIN};
 pub(crate) use pointlike::{Choice, Incidence, LightCentre, PointLikes};
-pub(crate) use selection::{Asking, ChoiceWork, tables_bytes};
+pub(crate) use selection::{Asking, ChoiceWork};
 pub(crate) use sun_ways::{SunPlace, SunWays};
 pub(crate) use suns::{SunChoice, SunSample, Suns};
 

@@ -45,7 +45,7 @@ pub(super) const DEFENSIVE_SHARE: f64 = 0.1;
 pub(super) struct LightChoice {
     lights: usize,
     /// Where they are many.
-    cubes: Option<Cubes>,
+    pub(super) cubes: Option<Cubes>,
 }
 
 /// A place that asks for light, on one side or on both.
@@ -234,21 +234,13 @@ impl Defensive {
     }
 }
 
-/// Bytes of the tables of so many lights in a box around the geometry, if every one is made.
-pub(crate) fn tables_bytes(lights: usize, bounds: Option<[DVec3; 2]>) -> u64 {
-    let LightChoice { cubes, .. } = LightChoice::new(lights, bounds);
-    let entries = cubes.map_or(0, |cubes| cubes.tables.len() * lights);
-    // A probability, and an entry of the guide table.
-    entries as u64 * (size_of::<f64>() + size_of::<u32>()) as u64
-}
-
 /// The tables of all cubes.
-struct Cubes {
+pub(super) struct Cubes {
     low: DVec3,
-    cubes_per_m: f64,
+    pub(super) cubes_per_m: f64,
     counts: [usize; 3],
     /// Of side s of cube c at `c * SIDES + s`; `None` where no light comes.
-    tables: Vec<OnceLock<Option<Discrete>>>,
+    pub(super) tables: Vec<OnceLock<Option<Discrete>>>,
 }
 
 impl Cubes {
@@ -277,23 +269,37 @@ impl Cubes {
         lights: usize,
         weight: impl Fn(usize, &Surroundings) -> f64,
     ) -> Option<&Discrete> {
-        let offset = (position - self.low) * self.cubes_per_m;
-        let cube: [usize; 3] =
-            array::from_fn(|axis| (offset[axis] as usize).min(self.counts[axis] - 1));
+        let cube = self.cube_of(position);
         let axis = side.map(|n| n.abs().max_position());
         let along = side.zip(axis).map(|(n, axis)| DVec3::AXES[axis] * n[axis].signum());
-        let number = (cube[2] * self.counts[1] + cube[1]) * self.counts[0] + cube[0];
-        let number_of_side =
-            side.zip(axis).map_or(SIDES - 1, |(n, axis)| 2 * axis + usize::from(n[axis] < 0.0));
         let make = || {
-            let edge_m = self.cubes_per_m.recip();
-            let centre = self.low + (DVec3::from_array(cube.map(|i| i as f64)) + 0.5) * edge_m;
+            let (centre, edge_m) = (self.centre(cube), self.cubes_per_m.recip());
             let around = Surroundings { centre, edge_m, side: along };
             let weights: Vec<f64> = (0..lights).map(|light| weight(light, &around)).collect();
             let shares = Defensive::new(weights.iter().copied());
             Discrete::new(&weights.into_iter().map(|it| shares.raise(it)).collect::<Vec<f64>>())
         };
-        self.tables[number * SIDES + number_of_side].get_or_init(make).as_ref()
+        self.tables[self.number(cube, side)].get_or_init(make).as_ref()
+    }
+
+    /// The cube that a place lies in, or the nearest.
+    pub(super) fn cube_of(&self, position: DVec3) -> [usize; 3] {
+        let offset = (position - self.low) * self.cubes_per_m;
+        array::from_fn(|axis| (offset[axis] as usize).min(self.counts[axis] - 1))
+    }
+
+    pub(super) fn centre(&self, cube: [usize; 3]) -> DVec3 {
+        self.low + (DVec3::from_array(cube.map(|i| i as f64)) + 0.5) / self.cubes_per_m
+    }
+
+    /// The number of the table of a side of a cube.
+    pub(super) fn number(&self, cube: [usize; 3], side: Option<DVec3>) -> usize {
+        let number = (cube[2] * self.counts[1] + cube[1]) * self.counts[0] + cube[0];
+        let number_of_side = side.map_or(SIDES - 1, |n| {
+            let axis = n.abs().max_position();
+            2 * axis + usize::from(n[axis] < 0.0)
+        });
+        number * SIDES + number_of_side
     }
 }
 
@@ -475,15 +481,6 @@ mod tests {
 
     fn number_of(index: u64) -> f64 {
         radical_inverse(2, index + 1)
-    }
-
-    #[test]
-    fn tables_take_no_more_than_there_may_be() {
-        let bytes = |lights| tables_bytes(lights, Some(BOX));
-        assert_eq!(bytes(15), 0);
-        // 24 x 12 x 5 cubes of 7 sides.
-        assert_eq!(bytes(100), 24 * 12 * 5 * 7 * 100 * 12);
-        assert!(bytes(100_000) <= 12 * MAX_ENTRIES as u64);
     }
 
     #[test]

@@ -65,8 +65,8 @@ impl MemoryNeed {
         let need = Self {
             scene_bytes: triangles
                 .saturating_mul(TRIANGLE_BYTES)
-                .saturating_add(tables_bytes(scene.lights.len(), scene.mesh.bounds()))
-                .saturating_add(tables_bytes(emitting_triangles(scene), scene.mesh.bounds()))
+                .saturating_add(tables_bytes(scene.lights.len(), scene))
+                .saturating_add(tables_bytes(emitting_triangles(scene), scene))
                 .saturating_add(coarse_tables_bytes(&scene.lights)),
             sums_bytes: points.saturating_mul(point_bytes(settings)),
             cells_bytes: cells_bytes(settings),

@@ -30,9 +30,8 @@ pub(crate) fn merge(arguments: &MergeArguments) -> Result<Exit, CliError> {
         plan.expect_decisions(&part.sums, &part.name)?;
     }
     let folder = Folder::prepare(&arguments.output, Folder::by_name(file), &project)?;
-    let scene = &project.loaded.scene;
     let threads = count(arguments.work.threads);
-    let forecast = Forecast::new(scene, &settings, threads);
+    let forecast = Forecast::new(&project.loaded, &settings, threads);
     let watcher = Watcher::new(forecast, None, arguments.output.quiet);
     let put_together = |prepared: &PreparedScene<'_>, watcher: &mut Watcher<'_>| {
         let scene = prepared.clone();

@@ -89,7 +89,7 @@ impl<'a> KeptRun<'a> {
         let kept = RunPaths { file: &self.file, out, settings };
         let writer = CheckpointWriter::new(&arguments.checkpoint, project, kept)?;
         let threads = count(arguments.work.threads);
-        let forecast = Forecast::new(&project.loaded.scene, settings, threads);
+        let forecast = Forecast::new(&project.loaded, settings, threads);
         let watcher = Watcher::new(forecast, arguments.time, quiet)
             .listened_to(listener)
             .going_on(self.heading.seconds)

@@ -61,7 +61,7 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<Exit, CliError> {
     let SimulationArguments { time, threads, .. } = arguments.simulation;
     let (scene, settings) =
         (&project.loaded.scene, project::settings(&project, &arguments.simulation)?);
-    let forecast = Forecast::new(scene, &settings, count(threads));
+    let forecast = Forecast::new(&project.loaded, &settings, count(threads));
     let mut watcher = Watcher::new(forecast, time, arguments.output.quiet);
     if let Some(path) = &arguments.keeping.checkpoint {
         let kept = RunPaths { file: &arguments.project, out: folder.path(), settings: &settings };
@@ -92,9 +92,8 @@ fn run_plan(
 ) -> Result<Exit, CliError> {
     let plan = Plan::read(path)?;
     let settings = plan.settings(&path.display().to_string(), project)?;
-    let scene = &project.loaded.scene;
     let threads = count(arguments.simulation.threads);
-    let forecast = Forecast::new(scene, &settings, threads);
+    let forecast = Forecast::new(&project.loaded, &settings, threads);
     let watcher = Watcher::new(forecast, None, arguments.output.quiet);
     let run = |prepared: &PreparedScene<'_>, watcher: &mut Watcher<'_>| {
         let (samples, scene) = (plan.samples, prepared.clone());
@@ -120,8 +119,7 @@ pub(crate) fn simulate(
     quiet: bool,
 ) -> Result<Finished, CliError> {
     let settings = project::settings(project, arguments)?;
-    let scene = &project.loaded.scene;
-    let forecast = Forecast::new(scene, &settings, count(arguments.threads));
+    let forecast = Forecast::new(&project.loaded, &settings, count(arguments.threads));
     let watcher = Watcher::new(forecast, arguments.time, quiet);
     let simulate = |prepared: &PreparedScene<'_>, watcher: &mut Watcher<'_>| {
         Ok(Some(quasilux_transport::simulate(prepared.clone(), &settings, watcher)))

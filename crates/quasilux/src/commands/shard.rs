@@ -36,7 +36,7 @@ pub(crate) fn shard(arguments: &ShardArguments) -> Result<Exit, CliError> {
     if !arguments.quiet && !scene.cameras.is_empty() {
         tell("warning: parts have no pictures; `merge` takes them");
     }
-    let forecast = Forecast::new(scene, &settings, threads);
+    let forecast = Forecast::new(&project.loaded, &settings, threads);
     let mut watcher = Watcher::new(forecast, None, arguments.quiet);
     let trace = || {
         let (samples, range) = (plan.samples, range.clone());

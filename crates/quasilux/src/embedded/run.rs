@@ -6,12 +6,12 @@ use crate::commands::{Finished, Folder, Job, count, work};
 use crate::door::Door;
 use crate::exit::CliError;
 use crate::forecast::Forecast;
+use crate::kernel;
 use crate::project::{self, Project};
 use crate::results::{self, ResultFile};
 use crate::source::from_the_root;
 use crate::watcher::{Listener, Watcher};
 use clap::Parser;
-use quasilux_bvh::SimdLevel;
 use quasilux_report::PictureOf;
 use quasilux_transport::{PreparedScene, Settings};
 use std::ffi::OsString;
@@ -29,7 +29,7 @@ impl Order {
     /// When an option is unknown or its value makes no sense, in the words of the command line; or
     /// when `QUASILUX_KERNEL` names no ray kernel of this machine.
     pub fn from_words(words: impl IntoIterator<Item = OsString>) -> Result<Self, CliError> {
-        SimdLevel::chosen().map_err(CliError::new)?;
+        kernel::choose()?;
         match parse("run", Path::new("scene"), words)? {
             Command::Run(arguments) => Ok(Self(arguments)),
             _ => Err(CliError::new("no run")),
@@ -79,7 +79,7 @@ pub(super) fn perform(
     job: Job<'_>,
 ) -> Result<Finished, CliError> {
     let SimulationArguments { time, threads, .. } = arguments.simulation;
-    let forecast = Forecast::new(&project.loaded.scene, settings, count(threads));
+    let forecast = Forecast::new(&project.loaded, settings, count(threads));
     let mut watcher = Watcher::new(forecast, time, true).listened_to(listener);
     if let Some(path) = &arguments.keeping.checkpoint {
         let file = kept_project(path, project);

@@ -9,7 +9,7 @@ use quasilux_report::annual::{
     AnnualReport, annual_csv, annual_json, annual_maps, hours_csv, hours_png,
 };
 use std::io::{self, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// The hours of all points: by point, value and half-width, and interval of the weather file.
 pub(super) const HOURS_FILE: &str = "hours.npy";
@@ -18,6 +18,8 @@ pub(super) const HOURS_FILE: &str = "hours.npy";
 pub(super) struct Sink<'s, 'r> {
     report: &'s mut AnnualReport<'r>,
     hours: &'s mut (dyn Write + Send),
+    /// Where the file is to be.
+    path: PathBuf,
     /// How many points there will be.
     points: usize,
 }
@@ -27,11 +29,12 @@ impl<'s, 'r> Sink<'s, 'r> {
     pub(super) fn begin(
         report: &'s mut AnnualReport<'r>,
         hours: &'s mut (dyn Write + Send),
+        path: PathBuf,
         points: usize,
     ) -> io::Result<Self> {
         let intervals = report.calendar.intervals.len();
         hours.write_all(&NpyHeader { shape: &[points, 2, intervals] }.bytes())?;
-        Ok(Self { report, hours, points })
+        Ok(Self { report, hours, path, points })
     }
 
     /// Takes the next points.
@@ -40,7 +43,7 @@ impl<'s, 'r> Sink<'s, 'r> {
             let numbers = point.illuminance_lx.iter().chain(&point.half_width_lx);
             let bytes: Vec<u8> = numbers.flat_map(|x| x.to_le_bytes()).collect();
             let written = self.hours.write_all(&bytes);
-            written.map_err(|error| CliError::new(format!("cannot write results: {error}")))?;
+            written.map_err(|error| results::cannot_write(&self.path, &error))?;
             self.report.push(point);
         }
         self.report.run.work.rays += block.took.rays;
@@ -68,6 +71,10 @@ impl<'s, 'r> Sink<'s, 'r> {
 
 /// Writes what a report says.
 pub(super) fn write(report: &AnnualReport<'_>, folder: &Path, title: &str) -> Result<(), CliError> {
+    results::rescued(folder, |folder| write_to(report, folder, title))
+}
+
+fn write_to(report: &AnnualReport<'_>, folder: &Path, title: &str) -> Result<(), CliError> {
     let write = |name: &str, bytes: &[u8]| results::write_atomic(&folder.join(name), bytes);
     write("annual.json", annual_json(report).as_bytes())?;
     write("hours.csv", hours_csv(report).as_bytes())?;

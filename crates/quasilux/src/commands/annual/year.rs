@@ -44,6 +44,12 @@ pub(super) struct Year<'p> {
     blinds: OnceLock<Option<BlindsOfYear>>,
 }
 
+/// A room that blinds make, and whether it is the room, by hour.
+struct OwnRoom {
+    scene: Scene,
+    is_own: Vec<bool>,
+}
+
 /// Where blocks go.
 pub(super) type Keep<'k> = dyn FnMut(YearBlock) -> Result<(), CliError> + Send + 'k;
 
@@ -140,14 +146,17 @@ impl<'p> Year<'p> {
     }
 
     /// The rooms that blinds make, and when.
-    fn rooms(&self) -> Result<Vec<(Scene, Vec<bool>)>, CliError> {
+    fn rooms(&self) -> Result<Vec<OwnRoom>, CliError> {
         let Loaded { scene, blinds, .. } = &self.project.loaded;
         let Some((blinds, of_year)) = blinds.as_ref().zip(self.blinds()) else {
             return Ok(Vec::new());
         };
         let rooms =
             of_year.rooms().map_err(|it| CliError::in_file(&self.project.name, None, it))?;
-        let room = |RoomOfYear { positions, is_own }| (blinds.room(scene, &positions), is_own);
+        let room = |RoomOfYear { positions, is_own }| OwnRoom {
+            scene: blinds.room(scene, &positions),
+            is_own,
+        };
         Ok(rooms.into_iter().map(room).collect())
     }
 
@@ -162,7 +171,7 @@ impl<'p> Year<'p> {
         }
         let loaded = &self.project.loaded;
         let rooms = self.rooms()?;
-        let other_rooms = rooms.iter().map(|(scene, is_own)| OtherRoom { scene, is_own });
+        let other_rooms = rooms.iter().map(|OwnRoom { scene, is_own }| OtherRoom { scene, is_own });
         let other_rooms: Vec<OtherRoom<'_>> = other_rooms.collect();
         let hours = YearHours { skies: &self.calendar.skies, other_rooms: &other_rooms };
         let thresholds = self.terms.thresholds;
@@ -196,8 +205,9 @@ impl<'p> Year<'p> {
         let begin = Instant::now();
         let mut report = self.report()?;
         let mut failure = None;
-        let written = results::stream_atomic(&folder.join(HOURS_FILE), |file| {
-            let mut sink = Sink::begin(&mut report, file, self.points())?;
+        let hours = folder.join(HOURS_FILE);
+        let written = results::stream_atomic(&hours, |file| {
+            let mut sink = Sink::begin(&mut report, file, hours.clone(), self.points())?;
             match fill(&mut sink) {
                 Ok(is_complete) => sink.end(is_complete),
                 Err(error) => {
@@ -206,9 +216,13 @@ impl<'p> Year<'p> {
                 }
             }
         });
-        failure.map_or(written, Err)?;
+        if let Some(failure) = failure {
+            return Err(failure);
+        }
         report.run.seconds += begin.elapsed().as_secs_f64();
-        write(&report, folder, self.project.title())?;
+        // What is known of the points is written even where their hours cannot be.
+        let others = write(&report, folder, self.project.title());
+        written.and(others)?;
         if output.json {
             report.run.warnings.iter().for_each(|warning| tell(format_args!("warning: {warning}")));
             print(&annual_json(&report))?;

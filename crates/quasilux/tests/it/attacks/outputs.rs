@@ -1,6 +1,7 @@
 //! Results that cannot be written: exit code 2 and a message, and devices stay what they are.
 
 use super::{assert_refused, redirected, room};
+use crate::support::Run;
 use std::fs;
 use std::os::unix::fs::{FileTypeExt, symlink};
 
@@ -54,4 +55,47 @@ fn streams_that_take_nothing_are_no_panic() {
             assert_eq!((run.code, run.stdout.as_str()), (Some(2), ""), "{arguments:?} {streams}");
         }
     }
+}
+
+/// The limit of a file's size is a full disk, and no end of the process.
+#[test]
+fn a_limit_of_sizes_is_an_error_of_the_file() {
+    let folder = room("outputs_limit");
+    let script = "ulimit -f 1; exec \"$@\"";
+    let mut command = std::process::Command::new("sh");
+    command.args(["-c", script, "sh", env!("CARGO_BIN_EXE_quasilux")]).current_dir(folder.path(""));
+    command.args(["run", "room.toml", "--samples", "64", "--quiet", "--out", "out"]);
+    let run = Run::new(command.output().expect("the shell starts"));
+    assert_refused("a limit", &run, &["out/result.json: cannot write results: File too large"]);
+}
+
+/// Where results cannot be written they are elsewhere, and the message says where.
+#[test]
+fn results_that_cannot_be_written_are_rescued() {
+    let folder = room("outputs_rescued");
+    fs::create_dir_all(folder.path("out/result.json/in the way")).expect("folders are made");
+    fs::create_dir(folder.path("temporary")).expect("folders are made");
+    let mut command = folder.command(&["run", "room.toml", "--samples", "64", "--out", "out"]);
+    command.env("TMPDIR", folder.path("temporary"));
+    let run = Run::new(command.output().expect("the program starts"));
+    assert_refused("a folder in the way", &run, &["cannot write results", "; all of them are in "]);
+    let (_, place) = run.stderr.trim_end().rsplit_once("; all of them are in ").expect("a place");
+    let rescued = fs::read_to_string(std::path::Path::new(place).join("result.json"));
+    assert!(rescued.is_ok_and(|document| document.contains("\"quasilux-result/1\"")));
+}
+
+/// The folder of a run goes while it computes: it is made again.
+#[test]
+fn a_folder_that_is_removed_is_made_again() {
+    let folder = room("outputs_removed");
+    let arguments = ["run", "room.toml", "--rel-tol", "1e-9", "--time", "3s", "--out", "out"];
+    let mut child = folder.command(&arguments).spawn().expect("the program starts");
+    while !folder.path("out").exists() {
+        assert!(child.try_wait().is_ok_and(|ended| ended.is_none()), "it ended");
+        std::thread::yield_now();
+    }
+    fs::remove_dir_all(folder.path("out")).expect("an empty folder");
+    let run = Run::new(child.wait_with_output().expect("the program ends"));
+    assert_eq!(run.code, Some(3), "{}", run.stderr);
+    assert!(folder.read("out/result.json").contains("\"tolerance_reached\": false"));
 }
