@@ -47,7 +47,7 @@ pub use sun::{SUN_RADIUS_DEG, Site, solid_angle_of_the_sun_sr, sun_luminance_cd_
 pub use tabulated::TabulatedSky;
 
 pub use weather::{
-    ParsedWeather, Weather, WeatherHour, WeatherLight, WeatherMoment, WeatherSky, WeatherTimeError,
+    LightAt, LightAtError, ParsedWeather, Weather, WeatherHour, WeatherLight, WeatherSky,
     WeatherUnits, WeatherWarning,
 };
 

@@ -8,8 +8,7 @@ use crate::geometry::read_file;
 use crate::project::{OutsideEntry, OutsideLight, PanoramaEntry, Project, WeatherEntry};
 use crate::{FileKind, Files, LoadError, Spanned, Warning};
 use quasilux_sky::{
-    Distribution, LocalTime, Panorama, Site, Sky, SkyLevel, Weather, WeatherMoment,
-    WeatherTimeError,
+    Distribution, LightAt, LightAtError, LocalTime, Panorama, Site, Sky, SkyLevel, Weather,
 };
 
 /// Most degrees that the site of a project and that of its weather file may be apart in latitude
@@ -105,15 +104,15 @@ fn of_weather(
     let mut facts = SkyFacts { model, site: Some(weather.site), time: None, sun: None };
     let mut shining = None;
     if let Some(time) = &entry.time {
-        let moment = moment(project, &weather, file, time)?;
-        facts.time = Some(moment.middle);
-        let sun = weather.site.sun_at(&moment.middle);
+        let at = light_at(project, &weather, file, time)?;
+        facts.time = Some(at.middle);
+        let sun = weather.site.sun_at(&at.middle);
         facts.sun = Some(sun.map_err(|error| LoadError::new(file, None, error.to_string()))?);
-        if moment.light.is_none() {
+        if at.light.is_none() {
             let message = format!("nothing shines at this time in \"{file}\"; the sky is dark");
             warnings.push(Warning::new(&project.file, Some(time.place), message));
         }
-        shining = moment.light;
+        shining = at.light;
     }
     let sun = shining.as_ref().filter(|light| light.sun_normal_illuminance_lx > 0.0);
     let sun = sun.filter(|_| entry.is_direct).map(|light| Sun {
@@ -128,14 +127,14 @@ fn of_weather(
 }
 
 /// What the file says of a time.
-fn moment(
+fn light_at(
     project: &Project,
     weather: &Weather,
     file: &str,
     time: &Spanned<LocalTime>,
-) -> Result<WeatherMoment, LoadError> {
-    weather.moment_at(&time.value).map_err(|error| match error {
-        WeatherTimeError::Sky(error) => LoadError::new(file, None, error.to_string()),
+) -> Result<LightAt, LoadError> {
+    weather.light_at(&time.value).map_err(|error| match error {
+        LightAtError::Sky(error) => LoadError::new(file, None, error.to_string()),
         lack => project.error(time.place, format!("\"{file}\" has {lack}")),
     })
 }

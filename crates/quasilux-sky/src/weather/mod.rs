@@ -8,7 +8,7 @@ mod dark_hours;
 mod epw;
 mod interval;
 mod light;
-mod moment;
+mod light_at;
 mod odd;
 mod possible;
 mod row;
@@ -19,7 +19,7 @@ use quasilux_text::{ParseError, Position, TextWarning, Warning, Warnings, decode
 use row::Row;
 
 pub use light::WeatherSky;
-pub use moment::{WeatherMoment, WeatherTimeError};
+pub use light_at::{LightAt, LightAtError};
 
 /// A weather file.
 #[derive(Clone, Debug, PartialEq)]

@@ -6,7 +6,7 @@ use crate::exit::CliError;
 use crate::project;
 use quasilux_scene::{Environment, FileKind, SkyFacts, SkyModel, Sun};
 use quasilux_sky::{
-    CieType, Distribution, Site, Sky, SkyError, SkyLevel, SkyPoint, Weather, WeatherMoment,
+    CieType, Distribution, LightAt, Site, Sky, SkyError, SkyLevel, SkyPoint, Weather,
     sun_luminance_cd_m2,
 };
 use std::path::Path;
@@ -90,8 +90,8 @@ impl Subject {
         let warnings = read.warnings.iter().map(|warning| format!("{file}:{warning}")).collect();
         let sky = match &arguments.time {
             Some(time) => {
-                let moment = read.weather.moment_at(time);
-                Some(of_moment(&file, moment.map_err(|lack| refuse(lack.to_string()))?, site)?)
+                let at = read.weather.light_at(time);
+                Some(of_light(&file, at.map_err(|lack| refuse(lack.to_string()))?, site)?)
             }
             None if arguments.positions.is_some() => None,
             None => {
@@ -116,14 +116,14 @@ impl Subject {
 }
 
 /// What shines in an interval of a weather file.
-fn of_moment(file: &str, moment: WeatherMoment, site: Option<Site>) -> Result<ShownSky, CliError> {
-    let Some(light) = moment.light else {
-        let middle = moment.middle.to_string().replacen('T', " ", 1);
+fn of_light(file: &str, at: LightAt, site: Option<Site>) -> Result<ShownSky, CliError> {
+    let Some(light) = at.light else {
+        let middle = at.middle.to_string().replacen('T', " ", 1);
         let message = format!("nothing shines at {}; expected a time of the day", &middle[5..]);
         return Err(CliError::in_file(file, None, message));
     };
     let model = SkyModel::Weather { file: file.to_owned() };
-    let facts = SkyFacts { model, site, time: Some(moment.middle), sun: Some(light.sun) };
+    let facts = SkyFacts { model, site, time: Some(at.middle), sun: Some(light.sun) };
     let normal_illuminance_lx = light.sun_normal_illuminance_lx;
     let sun = Sun { centre: light.sun, normal_illuminance_lx };
     Ok(ShownSky {

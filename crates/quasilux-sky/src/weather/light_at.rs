@@ -6,7 +6,7 @@ use crate::local_time::LocalTime;
 
 /// The interval that a time lies in.
 #[derive(Clone, Debug, PartialEq)]
-pub struct WeatherMoment {
+pub struct LightAt {
     /// The middle of it.
     pub middle: LocalTime,
     /// `None` where nothing shines.
@@ -15,7 +15,7 @@ pub struct WeatherMoment {
 
 /// Why a file does not say what shines at a time.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum WeatherTimeError {
+pub enum LightAtError {
     /// No interval has it.
     #[error(
         "no interval with {month:02}-{day:02} {:02}:{:02} in it; expected a time of the file, by \
@@ -46,16 +46,16 @@ impl Weather {
     ///
     /// # Errors
     /// When the file has no interval of that time, or not its light.
-    pub fn moment_at(&self, time: &LocalTime) -> Result<WeatherMoment, WeatherTimeError> {
+    pub fn light_at(&self, time: &LocalTime) -> Result<LightAt, LightAtError> {
         let (month, day, seconds) = (time.month(), time.day(), time.seconds());
         let number = self.interval_at(month, day, seconds);
         let Some(hour) = number.and_then(|number| self.hours.get(number)) else {
             let minute = (seconds / 60.0) as u32;
-            return Err(WeatherTimeError::NoInterval { month, day, minute });
+            return Err(LightAtError::NoInterval { month, day, minute });
         };
         if hour.light.is_none() {
-            return Err(WeatherTimeError::NoLight);
+            return Err(LightAtError::NoLight);
         }
-        Ok(WeatherMoment { middle: self.time_of(hour)?, light: self.sky_of(hour)? })
+        Ok(LightAt { middle: self.time_of(hour)?, light: self.sky_of(hour)? })
     }
 }
