@@ -20,7 +20,7 @@ use crate::outcome::{Options, Outcome};
 use count::{Count, Figure, Moment, Verdict};
 use known_scene::KnownScene;
 use quasilux_sampling::{Randomization, Sequence};
-use quasilux_transport::Settings;
+use quasilux_transport::{Settings, UnseenTolerance};
 use rayon::prelude::*;
 use trial::Trial;
 
@@ -54,6 +54,8 @@ fn counts(scenes: &[KnownScene], first_seed: u64, seeds: u32) -> Vec<Count> {
             let settings = Settings {
                 estimator: known.estimator,
                 rel_tol: known.rel_tol[number],
+                // Intervals stop a run here, and nothing else.
+                unseen_tol: UnseenTolerance::Off,
                 sequence,
                 randomization,
                 ..Settings::default()
