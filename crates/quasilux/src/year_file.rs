@@ -23,7 +23,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 /// Name and version of the format.
-const FORMAT: &str = "quasilux-year/2";
+const FORMAT: &str = "quasilux-year/1";
 /// A block: 64 points with all replicates of an hour's every minute.
 const MAX_BLOCK_BYTES: u64 = 16 << 30;
 

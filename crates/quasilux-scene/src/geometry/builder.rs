@@ -36,6 +36,15 @@ pub(crate) enum TriangleError {
     TooMany,
 }
 
+/// What a geometry file says of a material.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Look {
+    pub(crate) reflectance: Rgb,
+    pub(crate) emits: bool,
+    /// Whether it lets a part of the light through.
+    pub(crate) is_clear: bool,
+}
+
 impl MeshBuilder {
     pub(crate) fn new(up: UpAxis, unit_m: f64) -> Self {
         Self {
@@ -100,15 +109,11 @@ impl MeshBuilder {
     }
 
     /// Notes what the current file says about a material; the first word on a material counts.
-    pub(crate) fn describe(
-        &mut self,
-        material: u32,
-        reflectance: Rgb,
-        emits: bool,
-        warnings: &mut Vec<Warning>,
-    ) {
+    pub(crate) fn describe(&mut self, material: u32, look: Look, warnings: &mut Vec<Warning>) {
+        let Look { reflectance, emits, is_clear } = look;
         let known = &mut self.geometry.materials[material as usize];
         known.emits |= emits;
+        known.is_clear |= is_clear;
         match known.reflectance {
             None => known.reflectance = Some(reflectance),
             Some(first) if first != reflectance => warnings.push(Warning::new(

@@ -5,13 +5,14 @@
 //! [`Accessor`](super::gltf_accessor::Accessor). Animations, skins, cameras and textures are not
 //! read, and lights belong to the project file.
 
-use super::builder::MeshBuilder;
+use super::builder::{Look, MeshBuilder};
 use super::gltf_buffers;
 use super::gltf_primitive::{self, Target};
 use crate::{Files, LoadError, Rgb, Warning};
 use ::gltf::accessor::DataType;
 use ::gltf::json::accessor::GenericComponentType;
 use ::gltf::json::validation::Checked;
+use ::gltf::material::AlphaMode;
 use ::gltf::scene::Transform;
 use ::gltf::{Document, Gltf, Mesh, Node, Semantic};
 use glam::{DMat4, DQuat, DVec3, DVec4};
@@ -276,10 +277,11 @@ fn describe(
     };
     let name = material.name().map_or_else(|| format!("material_{index}"), str::to_owned);
     let id = builder.material(&name);
-    let [r, g, b, _] = material.pbr_metallic_roughness().base_color_factor().map(f64::from);
+    let [r, g, b, alpha] = material.pbr_metallic_roughness().base_color_factor().map(f64::from);
+    let is_clear = material.alpha_mode() == AlphaMode::Blend && alpha < 1.0;
     // A channel that is not a number is taken as black.
-    let colour = Rgb([r, g, b].map(|c| if c > 0.0 { c.min(1.0) } else { 0.0 }));
+    let reflectance = Rgb([r, g, b].map(|c| if c > 0.0 { c.min(1.0) } else { 0.0 }));
     let emits = material.emissive_factor().iter().any(|&c| c > 0.0);
-    builder.describe(id, colour, emits, warnings);
+    builder.describe(id, Look { reflectance, emits, is_clear }, warnings);
     id
 }

@@ -42,6 +42,8 @@ pub(crate) struct FileMaterial {
     pub(crate) reflectance: Option<Rgb>,
     /// Whether a file says that it emits light.
     pub(crate) emits: bool,
+    /// Whether a file says that light passes through it.
+    pub(crate) is_clear: bool,
     /// The first file that uses it.
     pub(crate) file: String,
 }

@@ -1,9 +1,10 @@
 //! Diffuse reflectances of Wavefront MTL files.
 //!
-//! Of each material its name, `Kd` (diffuse reflectance, kept within 0 to 1) and `Ke` (whether it
-//! emits) are read. Textures and highlights are not: a texture is warned of.
+//! Of each material its name, `Kd` (diffuse reflectance, kept within 0 to 1), `Ke` (whether it
+//! emits) and `d` or `Tr` (whether it is transparent) are read. Textures and highlights are not: a
+//! texture is warned of.
 
-use super::obj_lines::text_of;
+use super::obj_lines::{text_of, without_comment};
 use crate::{Rgb, Warning};
 use quasilux_text::Position;
 
@@ -16,6 +17,8 @@ pub(super) struct MtlMaterial {
     pub(super) name: String,
     pub(super) reflectance: Rgb,
     pub(super) emits: bool,
+    /// Whether it lets a part of the light through.
+    pub(super) is_clear: bool,
 }
 
 /// Reads an MTL file; lines that make no sense are warned of and left out.
@@ -23,8 +26,8 @@ pub(super) fn read(file: &str, bytes: &[u8], warnings: &mut Vec<Warning>) -> Vec
     let text = text_of(bytes);
     let mut materials: Vec<MtlMaterial> = Vec::new();
     let mut textures = 0_u64;
-    for (line, number) in text.lines().zip(1..) {
-        let line = line.trim();
+    for (line, number) in quasilux_text::lines(&text).zip(1..) {
+        let line = without_comment(line).trim();
         let (keyword, rest) = line.split_once(char::is_whitespace).unwrap_or((line, ""));
         let mut warn = |message: String| {
             let place = Some(Position { line: number, column: 1 });
@@ -33,7 +36,7 @@ pub(super) fn read(file: &str, bytes: &[u8], warnings: &mut Vec<Warning>) -> Vec
         if keyword == "newmtl" {
             let reflectance = Rgb::grey(DEFAULT_REFLECTANCE);
             let name = rest.trim().to_owned();
-            materials.push(MtlMaterial { name, reflectance, emits: false });
+            materials.push(MtlMaterial { name, reflectance, emits: false, is_clear: false });
             continue;
         }
         let Some(material) = materials.last_mut() else {
@@ -54,6 +57,9 @@ pub(super) fn read(file: &str, bytes: &[u8], warnings: &mut Vec<Warning>) -> Vec
                 )),
             },
             "Ke" => material.emits = colour(rest).is_some_and(|ke| ke.max_channel() > 0.0),
+            // Programs do not agree whether `Tr` is 1 of what is opaque or of what is clear.
+            "d" => material.is_clear |= last_number(rest).is_some_and(|d| d < 1.0),
+            "Tr" => material.is_clear |= last_number(rest).is_some_and(|tr| tr > 0.0 && tr < 1.0),
             "map_Kd" => textures += 1,
             _ => {}
         }
@@ -65,9 +71,13 @@ pub(super) fn read(file: &str, bytes: &[u8], warnings: &mut Vec<Warning>) -> Vec
     materials
 }
 
+/// The number that a statement ends with.
+fn last_number(words: &str) -> Option<f64> {
+    words.split_whitespace().next_back()?.parse().ok()
+}
+
 /// One or three finite numbers.
 fn colour(words: &str) -> Option<Rgb> {
-    let words = words.split('#').next().unwrap_or_default();
     let numbers: Vec<f64> =
         words.split_whitespace().map(str::parse).collect::<Result<_, _>>().ok()?;
     let colour = match numbers.as_slice() {
@@ -85,12 +95,16 @@ mod tests {
     #[test]
     fn reflectances_and_oddities() {
         let text = "Kd 1 1 1\nnewmtl white wall\n Kd 0.8 0.7 1.5\nKs 1 1 1\nnewmtl lamp\n\
-                    Kd 0.25\nKe 3 3 3\nmap_Kd a.png\nnewmtl odd\nKd x\n\u{0}";
+                    Kd 0.25 # dark\nKe 3 3 3\nmap_Kd a.png\nnewmtl odd\nKd x\n\u{0}\n\
+                    newmtl pane #2 # of the door\nd -halo 0.3\nnewmtl old\nTr 1\n";
         let mut warnings = Vec::new();
         let materials = read("a.mtl", text.as_bytes(), &mut warnings);
         let of =
             |i: usize| (materials[i].name.as_str(), materials[i].reflectance, materials[i].emits);
-        assert_eq!(materials.len(), 3);
+        assert_eq!(materials.len(), 5);
+        assert_eq!(materials[3].name, "pane #2");
+        let clear: Vec<bool> = materials.iter().map(|material| material.is_clear).collect();
+        assert_eq!(clear, [false, false, false, true, false]);
         assert_eq!(of(0), ("white wall", Rgb([0.8, 0.7, 1.0]), false));
         assert_eq!(of(1), ("lamp", Rgb::grey(0.25), true));
         assert_eq!(of(2), ("odd", Rgb::grey(DEFAULT_REFLECTANCE), false));

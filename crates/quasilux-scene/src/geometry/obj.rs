@@ -1,8 +1,8 @@
 //! Wavefront OBJ geometry: the faces of [`obj_lines`](super::obj_lines) to triangles.
 
-use super::builder::MeshBuilder;
+use super::builder::{Look, MeshBuilder};
 use super::mtl::{self, MtlMaterial};
-use super::obj_lines;
+use super::obj_lines::{self, ObjLines};
 use super::polygon::Cutter;
 use super::{DEFAULT_MATERIAL, beside, reason};
 use crate::files::{self, FileKind};
@@ -29,19 +29,7 @@ pub(super) fn read(
             libraries.read_all(names, *place, builder, warnings);
         }
     }
-    if lines.unnamed_materials > 0 {
-        let message = format!(
-            "{} usemtl statements name no material: their faces have the material \
-             \"{DEFAULT_MATERIAL}\"",
-            lines.unnamed_materials
-        );
-        warnings.push(Warning::new(&file, None, message));
-    }
-    if lines.thin_faces > 0 {
-        let message = format!("{} faces have fewer than three corners: dropped", lines.thin_faces);
-        warnings.push(Warning::new(&file, None, message));
-    }
-
+    warnings.extend(oddities(&lines).map(|message| Warning::new(&file, None, message)));
     let objects: Vec<u32> =
         lines.objects.iter().map(|name| builder.object(&name.as_str().into())).collect();
     let mut cutter = Cutter::default();
@@ -65,6 +53,28 @@ pub(super) fn read(
         }
     }
     Ok(())
+}
+
+/// What was left out of a file, or lived with.
+fn oddities(lines: &ObjLines) -> impl Iterator<Item = String> {
+    let counted = |count: u64, what: &str| (count > 0).then(|| format!("{count} {what}"));
+    let unnamed = format!(
+        "usemtl statements name no material: their faces have the material \"{DEFAULT_MATERIAL}\""
+    );
+    [
+        counted(lines.unnamed_materials, &unnamed),
+        counted(lines.thin_faces, "faces have fewer than three corners: dropped"),
+        counted(
+            lines.free_forms,
+            "curves and surfaces of free form are not read; expected polygons",
+        ),
+        counted(
+            lines.vertices_with_commas,
+            "vertices have commas in their numbers; expected decimal points (read as such)",
+        ),
+    ]
+    .into_iter()
+    .flatten()
 }
 
 /// What a material file counts for beside its bytes, so that their number is bounded.
@@ -134,10 +144,10 @@ impl Libraries<'_> {
         warnings: &mut Vec<Warning>,
     ) {
         for material in mtl::read(path, bytes, warnings) {
-            let MtlMaterial { name, reflectance, emits } = material;
-            if self.wanted.contains(&name) {
-                let index = builder.material(&name);
-                builder.describe(index, reflectance, emits, warnings);
+            if self.wanted.contains(&material.name) {
+                let index = builder.material(&material.name);
+                let MtlMaterial { reflectance, emits, is_clear, .. } = material;
+                builder.describe(index, Look { reflectance, emits, is_clear }, warnings);
             }
         }
     }

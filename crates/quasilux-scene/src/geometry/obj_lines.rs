@@ -31,6 +31,10 @@ pub(super) struct ObjLines {
     pub(super) thin_faces: u64,
     /// How many `usemtl` statements have no name.
     pub(super) unnamed_materials: u64,
+    /// Curves and surfaces of free form, left out.
+    pub(super) free_forms: u64,
+    /// Vertices that were read with commas as decimal points, or behind numbers.
+    pub(super) vertices_with_commas: u64,
 }
 
 /// A face.
@@ -106,7 +110,13 @@ impl Reader {
         };
         let name = rest(reader.statement);
         match keyword {
-            "v" => self.lines.positions.push(reader.position(words)?),
+            "v" => {
+                let position = reader.position(words).or_else(|refusal| {
+                    self.lines.vertices_with_commas += 1;
+                    reader.position_with_commas().ok_or(refusal)
+                });
+                self.lines.positions.push(position?);
+            }
             "f" | "fo" => self.add_face(reader, words)?,
             "o" | "g" => self.object = Some(name.to_owned()).filter(|name| !name.is_empty()),
             "usemtl" if name.is_empty() => {
@@ -121,6 +131,7 @@ impl Reader {
                 });
                 self.material = Some(material);
             }
+            "curv" | "curv2" | "surf" => self.lines.free_forms += 1,
             "mtllib" => self.lines.libraries.push((name.to_owned(), reader.place(0))),
             _ => {}
         }
@@ -187,7 +198,7 @@ struct Statement<'a> {
 }
 
 fn statements_of(text: &str) -> impl Iterator<Item = Statement<'_>> {
-    let mut lines = text.lines().zip(1..);
+    let mut lines = quasilux_text::lines(text).zip(1..);
     std::iter::from_fn(move || {
         let (line, number) = lines.next()?;
         let mut last = without_comment(line);
@@ -213,10 +224,17 @@ fn continued(line: &str) -> Option<&str> {
     line.trim_end().strip_suffix('\\')
 }
 
-/// The line up to a `#` that starts a word: names may hold one.
-fn without_comment(line: &str) -> &str {
-    let starts_word = |at: usize| line[..at].chars().next_back().is_none_or(char::is_whitespace);
-    let comment = line.match_indices('#').map(|(at, _)| at).find(|&at| starts_word(at));
+/// The line up to a `#` that starts a word; of a statement that is a name, one that is a word:
+/// names like `Grey #1` hold one.
+pub(super) fn without_comment(line: &str) -> &str {
+    let keyword = line.split_whitespace().next().unwrap_or_default();
+    let is_name = ["o", "g", "usemtl", "mtllib", "newmtl"].contains(&keyword);
+    let is_blank = |c: Option<char>| c.is_none_or(|c| c.is_whitespace() || c == '#');
+    let is_comment = |at: usize| {
+        let starts_word = line[..at].chars().next_back().is_none_or(char::is_whitespace);
+        starts_word && (!is_name || is_blank(line[at + 1..].chars().next()))
+    };
+    let comment = line.match_indices('#').map(|(at, _)| at).find(|&at| is_comment(at));
     &line[..comment.unwrap_or(line.len())]
 }
 
@@ -265,6 +283,18 @@ impl StatementReader<'_> {
         Ok(DVec3::new(coordinate("x")?, coordinate("y")?, coordinate("z")?))
     }
 
+    /// The same, where a comma is a decimal point, or stands behind a number: programs write such
+    /// files in countries with decimal commas.
+    fn position_with_commas(&self) -> Option<DVec3> {
+        let words = self.statement.split_whitespace().skip(1);
+        let number = |word: &str| {
+            let word = word.strip_suffix(',').unwrap_or(word);
+            word.replacen(',', ".", 1).parse().ok().filter(|x: &f64| x.is_finite())
+        };
+        let coordinates: Vec<f64> = words.take(3).map(number).collect::<Option<_>>()?;
+        Some(DVec3::from_array(coordinates.try_into().ok()?))
+    }
+
     /// The position index of a corner of an `f` statement, counted from 0. One that is counted from
     /// the start may be that of a vertex to come.
     fn corner(&self, at: usize, word: &str, vertices: usize) -> Result<u32, LoadError> {
@@ -300,15 +330,19 @@ mod tests {
     fn statements_are_read() {
         let text = "# head\nmtllib a b.mtl\no desk#1 # comment\nusemtl wood grain\n\
                     v 0 0 0 1 # w\nv 1 0 0 0.5 0.5 0.5\nvt 0 0\nv 0 1 \\\n 0\n\
-                    f 1/1/1 2//2 -1\nf 1 2\nl 1 2\n";
+                    f 1/1/1 2//2 -1 #\nf 1 2\nl 1 2\nusemtl Grey #1 # it\ncurv 0 1 1 2\n\
+                    v 0,5 -1,25 2e1\nv 1, 2, 3,\n";
         let lines = read("a.obj", text.as_bytes()).unwrap();
-        assert_eq!(lines.positions, [DVec3::ZERO, DVec3::X, DVec3::Y]);
+        let with_commas = [DVec3::new(0.5, -1.25, 20.0), DVec3::new(1.0, 2.0, 3.0)];
+        assert_eq!(lines.positions[..3], [DVec3::ZERO, DVec3::X, DVec3::Y]);
+        assert_eq!(lines.positions[3..], with_commas);
+        assert_eq!((lines.vertices_with_commas, lines.free_forms), (2, 1));
         assert_eq!(lines.corners, [0, 1, 2]);
         let face = Face { line: 10, corners: 0..3, object: 0, material: Some(0) };
         assert_eq!(lines.faces, [face]);
         assert_eq!(lines.objects, ["desk#1"]);
         assert_eq!(lines.libraries, [("a b.mtl".to_owned(), Position { line: 2, column: 1 })]);
-        assert_eq!(lines.materials, ["wood grain"]);
+        assert_eq!(lines.materials, ["wood grain", "Grey #1"]);
         assert_eq!(lines.thin_faces, 1);
     }
 
@@ -321,6 +355,8 @@ mod tests {
         };
         for bytes in
             [marked.clone().into_bytes(), utf_16(u16::to_le_bytes), utf_16(u16::to_be_bytes)]
+                .into_iter()
+                .chain([text.replace('\n', "\r").into_bytes()])
         {
             let lines = read("a.obj", &bytes).unwrap();
             assert_eq!((lines.objects, lines.positions.len()), (vec!["Tür".to_owned()], 3));

@@ -18,19 +18,7 @@ pub(super) fn resolve(
     files: &dyn Files,
     warnings: &mut Vec<Warning>,
 ) -> Result<Vec<Material>, LoadError> {
-    let names = || geometry.materials.iter().map(|material| material.name.as_str());
-    let known: HashSet<&str> = names().collect();
-    for entry in &project.materials {
-        let name = &entry.name;
-        if name.value != DEFAULT_MATERIAL && !known.contains(name.value.as_str()) {
-            let message = format!(
-                "no geometry uses the material \"{}\"; expected one of {}",
-                name.value,
-                listed(names())
-            );
-            return Err(project.error(name.place, message).offer(&name.value, names()));
-        }
-    }
+    expect_used(project, geometry)?;
     let entries: HashMap<&str, &MaterialEntry> =
         project.materials.iter().map(|entry| (entry.name.value.as_str(), entry)).collect();
     let entry_of = |name: &str| entries.get(name).copied();
@@ -53,7 +41,12 @@ pub(super) fn resolve(
             };
         let bsdf = match (entry_of(&material.name), material.reflectance) {
             (Some(entry), _) => bsdf_of(entry, warnings)?,
-            (None, Some(reflectance)) => Bsdf::Diffuse(Diffuse { reflectance }),
+            (None, Some(reflectance)) => {
+                if material.is_clear && count > 0 {
+                    warnings.push(opaque(material));
+                }
+                Bsdf::Diffuse(Diffuse { reflectance })
+            }
             (None, None) => {
                 let bsdf = default.map_or_else(|| Ok(grey()), |entry| bsdf_of(entry, warnings))?;
                 if count > 0 {
@@ -66,6 +59,24 @@ pub(super) fn resolve(
         materials.push(Material { name: material.name.clone(), bsdf });
     }
     Ok(materials)
+}
+
+/// Refuses materials that no geometry uses.
+fn expect_used(project: &Project, geometry: &Geometry) -> Result<(), LoadError> {
+    let names = || geometry.materials.iter().map(|material| material.name.as_str());
+    let known: HashSet<&str> = names().collect();
+    for entry in &project.materials {
+        let name = &entry.name;
+        if name.value != DEFAULT_MATERIAL && !known.contains(name.value.as_str()) {
+            let message = format!(
+                "no geometry uses the material \"{}\"; expected one of {}",
+                name.value,
+                listed(names())
+            );
+            return Err(project.error(name.place, message).offer(&name.value, names()));
+        }
+    }
+    Ok(())
 }
 
 /// Names for a message, a few at most.
@@ -90,6 +101,16 @@ fn undefined(material: &FileMaterial, count: u64, bsdf: &Bsdf) -> Warning {
     } else {
         format!("the material \"{}\" of {count} triangles is not defined: {used}", material.name)
     };
+    Warning::new(&material.file, None, message)
+}
+
+/// Transparency in a geometry file says nothing of a pane: the project file must describe it.
+fn opaque(material: &FileMaterial) -> Warning {
+    let name = &material.name;
+    let message = format!(
+        "the material \"{name}\" lets light through by its file, and is opaque here; expected \
+         [materials.\"{name}\"] with kind = \"pane\" and its transmittance, or another kind"
+    );
     Warning::new(&material.file, None, message)
 }
 

@@ -15,6 +15,7 @@ mod outside;
 mod panorama;
 mod project;
 mod project_cases;
+mod reports;
 mod support;
 mod tilt;
 mod walls;

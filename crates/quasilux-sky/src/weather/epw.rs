@@ -22,6 +22,9 @@ const DIRECT_NORMAL: usize = 14;
 const DIFFUSE_HORIZONTAL: usize = 15;
 /// What stands for a missing radiation and a missing temperature.
 const MISSING_RADIATION: f64 = 9999.0;
+/// Of radiation, too, as programs that convert files write it; what is less below 0 is the offset
+/// of a pyranometer that sees a cold sky.
+const MISSING_BELOW_ZERO: f64 = -99.0;
 const MISSING_TEMPERATURE: f64 = 99.9;
 
 /// In so many days some are clear.
@@ -189,9 +192,10 @@ impl Line {
         let hour_of_day = number(&field(HOUR, what)?, 1.0..=24.0, what)?;
         let what = "the minute that an interval ends with, 0 to 60";
         let minute = number(&field(MINUTE, what)?, 0.0..=60.0, what)?;
-        let direct = radiation(&field(DIRECT_NORMAL, "the direct normal radiation in Wh/m2")?)?;
+        let direct = field(DIRECT_NORMAL, "the direct normal radiation in Wh/m2")?;
+        let direct = radiation(&direct, warnings)?;
         let diffuse = field(DIFFUSE_HORIZONTAL, "the diffuse horizontal radiation in Wh/m2")?;
-        let light = direct.zip(radiation(&diffuse)?);
+        let light = direct.zip(radiation(&diffuse, warnings)?);
         let light = light.map(|(direct, diffuse)| WeatherLight { direct, diffuse });
         if light.is_none() {
             let expected = "direct and diffuse radiation (nothing is known of this sky)";
@@ -206,10 +210,21 @@ impl Line {
 }
 
 /// `None` where it is missing.
-fn radiation(token: &Token<'_>) -> Result<Option<f64>, ParseError> {
+fn radiation(
+    token: &Token<'_>,
+    warnings: &mut Warnings<WeatherWarning>,
+) -> Result<Option<f64>, ParseError> {
     let what = "a radiation in Wh/m2, 0 to 2000, or 9999 where it is missing";
-    if token.text.is_empty() || token.number(what)?.value >= MISSING_RADIATION {
+    if token.text.is_empty() {
         return Ok(None);
     }
-    number(token, 0.0..=WeatherUnits::Irradiance.most(), what).map(Some)
+    match token.number(what)?.value {
+        missing if missing >= MISSING_RADIATION || missing <= MISSING_BELOW_ZERO => Ok(None),
+        offset if offset < 0.0 => {
+            let expected = "no radiation below 0 (read as 0)";
+            warnings.push(WeatherWarning::BelowZero, token.at, quoted(token.text), expected);
+            Ok(Some(0.0))
+        }
+        _ => number(token, 0.0..=WeatherUnits::Irradiance.most(), what).map(Some),
+    }
 }

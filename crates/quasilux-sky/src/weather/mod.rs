@@ -85,6 +85,8 @@ pub enum WeatherWarning {
     Text(TextWarning),
     /// An interval has no direct or no diffuse value: nothing is known of its sky.
     MissingLight,
+    /// A radiation is a little below 0. It counts as 0.
+    BelowZero,
     /// There are more or fewer intervals than a year has.
     OtherThanAYear,
     /// Intervals are longer or shorter than the header says.
@@ -139,6 +141,11 @@ impl Weather {
         let rows: Vec<Row<'_>> =
             (1..).zip(lines(&text)).map(|(n, text)| Row::new(n, text)).collect();
         let first = rows.first().map_or("", Row::text);
+        if let Some(at) = first.find(';').filter(|_| first.starts_with("LOCATION;")) {
+            let place = Position { line: 1, column: at + 1 };
+            let expected = "commas between fields, as EPW has them";
+            return Err(ParseError::new(place, "\";\", as spreadsheets write it", expected));
+        }
         let PlacedWeather { mut weather, places } = if first.starts_with("LOCATION") {
             epw::read(&rows, &mut warnings)?
         } else if first.trim_start().starts_with("place") {

@@ -308,7 +308,7 @@ fn what_is_no_weather_is_refused_with_its_place() {
         (changed("2026,6,21,12", "2026,6,31,12"), [9, 8], "a day of the month"),
         (changed("2026,6,21,12", "2026,6,21,25"), [9, 11], "the hour, 1 to 24"),
         (changed("700", "x"), [9, 0], "a radiation in Wh/m2"),
-        (changed("700", "-1"), [9, 0], "a radiation in Wh/m2"),
+        (changed("LOCATION,", "LOCATION;"), [1, 9], "commas between fields"),
         (changed(",95,0,0\n", "\n"), [9, 0], "the diffuse horizontal radiation"),
         (WEA.replace("latitude", "lattitude"), [2, 1], "expected latitude"),
         (WEA.replace("units 1", "units 4"), [6, 25], "expected weather_data_file_units"),
@@ -321,6 +321,25 @@ fn what_is_no_weather_is_refused_with_its_place() {
         assert_eq!(error.line(), line, "{error}");
         assert!(column == 0 || error.column() == column, "{error}");
         assert!(error.to_string().contains(needle), "{error}");
+    }
+}
+
+/// A pyranometer says a little less than nothing at night, and some programs mark what is missing
+/// by a number far below 0.
+#[test]
+fn radiation_below_zero_is_an_offset_or_missing() {
+    for (radiation, light, told) in [
+        (["-1.5", "-0.2"], Some([0.0, 0.0]), WeatherWarning::BelowZero),
+        (["-9999", "100"], None, WeatherWarning::MissingLight),
+        (["-99", "100"], None, WeatherWarning::MissingLight),
+        (["60000", "100"], None, WeatherWarning::MissingLight),
+        (["100", "99999"], None, WeatherWarning::MissingLight),
+        (["", "100"], None, WeatherWarning::MissingLight),
+    ] {
+        let read = Weather::parse(&epw(&[line("2026,6,21,12,60", "7.0", radiation)])).unwrap();
+        let light = light.map(|[direct, diffuse]| WeatherLight { direct, diffuse });
+        assert_eq!(read.weather.hours[0].light, light, "{radiation:?}");
+        assert!(read.warnings.iter().any(|it| it.kind() == told), "{radiation:?}");
     }
 }
 

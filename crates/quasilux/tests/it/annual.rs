@@ -292,7 +292,7 @@ fn a_project_says_what_its_year_is_judged_by() {
 #[test]
 fn terms_of_a_year_that_make_no_sense_are_refused() {
     for (number, (annual, words)) in [
-        ("weekends = false\n", "a.toml:7:12: the weather file does not say with which day"),
+        ("weekends = false\n", "a.toml:8:12: the weather file does not say with which day"),
         ("occupied_h = [18, 8]\n", "hours of a day, like [8, 18]"),
         ("enough_lx = 50\n", "expected enough light to be of use"),
         ("schedule = \"people.csv\"\n", "column"),
