@@ -228,3 +228,12 @@ def test_tilt_files_may_be_given():
             odd.tilt_factor(down)
     with pytest.raises(ValueError, match=r"expected \(3,\)"):
         odd.tilt_factor([[0, 0, 1]])
+
+
+def test_the_same_bytes_are_the_same_luminaire() -> None:
+    file = b"IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 3 1 1 2 0 0 0\n1 1 10\n0 45 90\n0\n100 80 10\n"
+    one, other = (photometry.read(file, name=name) for name in ("a.ies", "b.ies"))
+    assert one == other and hash(one) == hash(other)
+    assert one != photometry.read(file.replace(b"80", b"81")) and one != file
+    made = [photometry.from_intensities(0, [0, 90], [x, 0]) for x in (100, 100, 90)]
+    assert made[0] == made[1] and made[0] != made[2]

@@ -361,3 +361,24 @@ def test_examples_say_what_they_promise() -> None:
     result = quasilux.simulate(example("diffuser"), rel_tol=0.01)
     assert (result["floor"].half_width_lx <= 0.01 * result["floor"].illuminance_lx).all()
     assert [name for name in result] == ["floor"] and LIGHT["kind"] == "point"
+
+
+def test_figures_reckon_with_exact_numbers() -> None:
+    figure = Figure(500.0, 4.0, 2.0, 490.0, 520.0)
+    assert figure + 1 == 1 + figure == Figure(501.0, 4.0, 2.0, 491.0, 521.0)
+    assert figure - 1 == Figure(499.0, 4.0, 2.0, 489.0, 519.0)
+    assert 1000 - figure == Figure(500.0, 4.0, 2.0, 480.0, 510.0)
+    assert figure * 2 == 2 * figure == Figure(1000.0, 8.0, 4.0, 980.0, 1040.0)
+    assert figure / 2 == Figure(250.0, 2.0, 1.0, 245.0, 260.0)
+    assert -figure == Figure(-500.0, 4.0, 2.0, -520.0, -490.0)
+    others: tuple[Any, ...] = (figure, "1")
+    for other in others:
+        with pytest.raises(TypeError):
+            figure + other
+
+
+def test_a_sensor_is_an_array_of_illuminances(result: quasilux.Result) -> None:
+    board = result["board"]
+    assert np.array_equal(np.asarray(board), board.illuminance_lx)
+    assert np.asarray(board, dtype=np.float32).dtype == np.float32
+    assert np.array(board).shape == (2, 3) and float(np.asarray(board).mean()) > 0.0

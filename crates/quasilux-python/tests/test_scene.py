@@ -29,7 +29,7 @@ from rooms import (
 )
 
 import quasilux
-from quasilux import _native
+from quasilux import _native, photometry
 from quasilux._toml import ProjectText
 
 FEW = {"rel_tol": 0.05, "samples": 16}
@@ -402,3 +402,19 @@ def test_scenes_show_themselves() -> None:
     assert scene._repr_png_().startswith(b"\x89PNG")
     assert 'geometry = ["mesh"]' in scene.project_text
     assert "<script>" not in room(name="<script>")._repr_html_()
+
+
+def test_a_mesh_may_stand_first() -> None:
+    square = ([[0, 0, 0], [2, 0, 0], [2, 2, 0], [0, 2, 0]], [[0, 1, 2], [0, 2, 3]])
+    rest: dict[str, Any] = {"materials": {"wood": {"reflectance": 0.4}}, "lights": [LIGHT]}
+    sensors = {"desk": {"kind": "points", "points": [[1, 1, 0.8]], "normals": [[0, 0, 1]]}}
+    first = quasilux.Scene({"wood": square}, **rest, sensors=sensors)
+    assert first == quasilux.Scene(mesh={"wood": square}, **rest, sensors=sensors)
+
+
+def test_a_missing_file_is_of_both_kinds() -> None:
+    for kind in (quasilux.InputError, FileNotFoundError):
+        with pytest.raises(kind, match="none.toml: No such file"):
+            quasilux.load("none.toml")
+        with pytest.raises(kind, match="none.ies: No such file"):
+            photometry.read("none.ies")

@@ -2,12 +2,30 @@
 
 from __future__ import annotations
 
+import errno
+import os
 from typing import TYPE_CHECKING
 
 from quasilux._native import InputError
 
 if TYPE_CHECKING:
     from types import ModuleType
+
+
+class MissingFileError(InputError, FileNotFoundError):
+    """A file that is not there: an `InputError`, as of every file, and a `FileNotFoundError`."""
+
+    def __str__(self) -> str:
+        return str(self.args[0])
+
+
+def missing_file(path: str) -> MissingFileError:
+    """Return the error of a file that is not there, with its parts as attributes."""
+    message = os.strerror(errno.ENOENT)
+    error = MissingFileError(f"{path}: {message}")
+    error.file, error.line, error.column, error.message = path, None, None, message
+    error.errno, error.filename = errno.ENOENT, path
+    return error
 
 
 def input_error(

@@ -10,6 +10,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Literal, overload
 
 from quasilux import _native
+from quasilux._errors import missing_file
 from quasilux._finding import Check
 from quasilux._origins import Origins
 
@@ -40,6 +41,8 @@ def load(path: str | os.PathLike[str]) -> Scene:
     ------
     InputError
         When a file cannot be read or something in it makes no sense, with file, line and column.
+    FileNotFoundError
+        When there is no project file: an `InputError`, too.
 
     Examples
     --------
@@ -47,7 +50,10 @@ def load(path: str | os.PathLike[str]) -> Scene:
     >>> list(scene.sensors)
     ['probes', 'wall']
     """
-    return Scene._loaded(_native.Scene.open(os.fspath(path)), Origins())
+    path = os.fspath(path)
+    if not os.path.lexists(path):
+        raise missing_file(path)
+    return Scene._loaded(_native.Scene.open(path), Origins())
 
 
 @dataclasses.dataclass(frozen=True)
@@ -80,6 +86,10 @@ class Scene:
 
     Parameters
     ----------
+    mesh : trimesh.Trimesh, trimesh.Scene or dict, optional
+        Instead of `vertices` and `triangles`: a mesh, a scene of meshes, or pairs (vertices,
+        triangles) by the name of their material. A mesh of trimesh has the material whose name its
+        visual or its key in the scene is, or the only one.
     vertices : array_like of float, shape (n, 3)
         Positions of vertices, in `units`. Those at one place become one.
     triangles : array_like of int, shape (m, 3)
@@ -87,10 +97,6 @@ class Scene:
     material_of : array_like of int or of str, shape (m,), optional
         The material of each triangle, as an index into `materials` or by name. It can be left out
         where there is one material or none.
-    mesh : trimesh.Trimesh, trimesh.Scene or dict, optional
-        Instead of `vertices` and `triangles`: a mesh, a scene of meshes, or pairs (vertices,
-        triangles) by the name of their material. A mesh of trimesh has the material whose name its
-        visual or its key in the scene is, or the only one.
     materials : dict of dict, optional
         Materials by name, such as ``{"wall": {"reflectance": 0.5}}``. A measured surface has the
         name of its file, the bytes of one, or an object with them in `data` as ``"file"``.
@@ -142,11 +148,11 @@ class Scene:
 
     def __init__(
         self,
+        mesh: Any = None,
         *,
         vertices: ArrayLike | None = None,
         triangles: ArrayLike | None = None,
         material_of: ArrayLike | Sequence[str] | None = None,
-        mesh: Any = None,
         materials: Mapping[str, Entry] | None = None,
         luminaires: Iterable[Entry] = (),
         lights: Iterable[Entry] = (),

@@ -78,6 +78,15 @@ class SensorResult:
         self._index = index
         self._entry = entry
 
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> Floats:
+        """Return the illuminances, so that numpy takes a sensor for them."""
+        import numpy as np
+
+        values = self.illuminance_lx
+        if copy is False and dtype is not None and np.dtype(dtype) != values.dtype:
+            raise ValueError(f"a copy is needed for {np.dtype(dtype)}")
+        return values.astype(dtype or values.dtype, copy=bool(copy))
+
     def __reduce__(self) -> tuple[Any, ...]:
         return _sensor_of, (self._result, self.name)
 

@@ -91,6 +91,12 @@ class Bsdf:
         """Tell pickle how to make it again: of the bytes of its file."""
         return _read, (self._source,)
 
+    def __eq__(self, other: object) -> bool:
+        return self.data == other.data if isinstance(other, Bsdf) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash(self.data)
+
     # What the file is and says.
 
     @property

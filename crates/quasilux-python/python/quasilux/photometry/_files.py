@@ -11,7 +11,7 @@ import stat
 from dataclasses import dataclass
 from typing import Protocol, Union
 
-from quasilux._errors import input_error
+from quasilux._errors import input_error, missing_file
 
 
 class BinaryReader(Protocol):
@@ -55,8 +55,11 @@ def contents(source: Source, *, name: str | None, most_bytes: int) -> Contents:
         called = path
         if "\n" in path or "\0" in path:
             raise ValueError("found a text of several lines; expected a path, or bytes")
-        with open(path, "rb") as file:
-            data = _read(file, most_bytes)
+        try:
+            with open(path, "rb") as file:
+                data = _read(file, most_bytes)
+        except FileNotFoundError:
+            raise missing_file(path) from None
     elif callable(getattr(source, "read", None)):
         called = getattr(source, "name", None)
         called = called if isinstance(called, str) else "<file>"

@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import functools
 import os
+import pickle
 from typing import TYPE_CHECKING, Any, Literal, cast
 
 import numpy as np
@@ -71,6 +72,20 @@ class Photometry(Intensities):
     def __reduce__(self) -> tuple[Callable[..., Photometry], tuple[Any, ...]]:
         """Tell pickle how to make it again: of the bytes of its file, or of its arrays."""
         return self._recipe
+
+    def _identity(self) -> tuple[Callable[..., Photometry], bytes]:
+        """Return what it is made of, whatever the file is called."""
+        make, arguments = self._recipe
+        kept = [it.data if isinstance(it, _files.Contents) else it for it in arguments]
+        return make, pickle.dumps(kept)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Photometry):
+            return NotImplemented
+        return self._identity() == other._identity()
+
+    def __hash__(self) -> int:
+        return hash(self._identity())
 
     # What the file is and says.
 
