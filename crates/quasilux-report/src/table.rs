@@ -82,6 +82,11 @@ fn sensors(report: &Report, style: Style) -> String {
     let figures = |figure: fn(&Summary) -> Figure| {
         report.sensors.iter().map(move |sensor| figure(&sensor.summary))
     };
+    // One point is as bright as itself, which says nothing.
+    let uniformity = |sensor: &SensorReport| match sensor.points.len() {
+        1 => Figure::default(),
+        _ => sensor.summary.uniformity,
+    };
     let factor = |sensor: &SensorReport| {
         let outside = report.outside?;
         let share = outside.daylight_factor(sensor.summary.average_lx, None)?.total;
@@ -95,7 +100,7 @@ fn sensors(report: &Report, style: Style) -> String {
         Column::figures("average", " lx", figures(|s| s.average_lx)),
         Column::figures("minimum", " lx", figures(|s| s.minimum_lx)),
         Column::figures("maximum", " lx", figures(|s| s.maximum_lx)),
-        Column::figures("uniformity", "", figures(|s| s.uniformity)),
+        Column::figures("uniformity", "", report.sensors.iter().map(uniformity)),
     ];
     if let Some(cells) = unseen::column(report) {
         columns.insert(3, Column::left("unseen", cells));
