@@ -73,7 +73,11 @@ pub(crate) fn rescued(
 ) -> Result<(), CliError> {
     let Err(error) = prepare(folder).and_then(|()| write(folder)) else { return Ok(()) };
     let elsewhere = std::env::temp_dir().join(format!("quasilux-{}", std::process::id()));
-    Err(match prepare(&elsewhere).and_then(|()| write(&elsewhere)) {
+    // What is there already is somebody's.
+    if std::fs::create_dir(&elsewhere).is_err() {
+        return Err(error);
+    }
+    Err(match write(&elsewhere) {
         Ok(()) => error.with_advice(&format!("; all of them are in {}", elsewhere.display())),
         Err(_) => {
             // Half of them are of no use, and may take the last of a disk.

@@ -63,6 +63,7 @@
 //! | [`TiltFactors`] | outside, the nearest factor holds | `3:5: found tilt angles from 0 to 60; expected 0 to 90 or 0 to 180 degrees (...)` |
 //! | [`TiltFile`] | factor 1 until [`read_tilt`](crate::read_tilt) has read it | `2:1: found a tilt file "lamp.tlt"; expected TILT=NONE or TILT=INCLUDE (...)` |
 //! | [`Semicolon`] | counts as a blank | `4:2: found a semicolon; expected blanks or a comma between numbers (and 1 more)` |
+//! | [`DecimalComma`] | a decimal point, in files that make no luminaire with commas as separators | `3:10: found "0,5"; expected a decimal point (read as one)` |
 //! | [`RecordStart`] | line ends inside the numbers have no meaning | `3:22: found "1"; expected the ballast factor to begin on a new line` |
 //! | [`CountWithPoint`] | the integer that it is | `3:8: found 2; expected the number of vertical angles without a decimal point` |
 //! | [`OpeningOfOtherEdition`] | read by that edition's table ([`LuminousShape::from_opening`]) | `3:8: found a luminous width, length and height of -1, 0, 0 m; expected signs that stand for a shape in the file's edition (read as a disk, as in LM-63-1995)` |
@@ -92,6 +93,7 @@
 //! [`TiltFactors`]: crate::WarningKind::TiltFactors
 //! [`TiltFile`]: crate::WarningKind::TiltFile
 //! [`Semicolon`]: crate::WarningKind::Semicolon
+//! [`DecimalComma`]: crate::WarningKind::DecimalComma
 //! [`RecordStart`]: crate::WarningKind::RecordStart
 //! [`CountWithPoint`]: crate::WarningKind::CountWithPoint
 //! [`LuminousShape::from_opening`]: crate::LuminousShape::from_opening
