@@ -78,7 +78,7 @@ struct Greediest {
 fn greediest(loaded: &Loaded, settings: &Settings) -> Greediest {
     let Loaded { scene, places, simulation, .. } = loaded;
     let need = MemoryNeed::new(scene, settings);
-    let maps_bytes = need.maps_bytes;
+    let maps_bytes = need.maps_bytes.saturating_add(need.map_tables_bytes);
     let others = [need.scene_bytes, need.sums_bytes, need.cells_bytes, need.pictures_bytes];
     if others.iter().all(|bytes| *bytes < maps_bytes) {
         let asked = simulation.map_elements.as_ref().map(|given| given.place);

@@ -31,6 +31,8 @@ const GUIDE_BYTES: u64 = (MAX_NODES * size_of::<Node>()) as u64;
 /// Of a counter of a map, and how many of them one landing takes memory for.
 const COUNTER_BYTES: u64 = 4;
 const COUNTERS_OF_A_LANDING: u64 = 256;
+/// Of the table that says where the counters of a landing are.
+const ENTRY_BYTES: u64 = 16;
 /// Landings of a photon: as many as at a reflectance of 7/8.
 const LANDINGS: u64 = 8;
 
@@ -44,6 +46,8 @@ pub struct MemoryNeed {
     pub sums_bytes: u64,
     /// Cells of surveys, at most.
     pub cells_bytes: u64,
+    /// Tables of all counters of illumination maps, landed on or not.
+    pub map_tables_bytes: u64,
     /// Illumination maps that are full.
     pub maps_bytes: u64,
     /// What a sample adds to them at most, while they are not.
@@ -94,7 +98,9 @@ impl MemoryNeed {
             false => (ELEMENTS_ACROSS, 0),
         };
         let sides = elements(scene, settings, across, split).saturating_mul(2);
+        let counters = full(sides, layers) / COUNTER_BYTES;
         Self {
+            map_tables_bytes: counters / COUNTERS_OF_A_LANDING * ENTRY_BYTES,
             maps_bytes: full(sides, layers),
             maps_bytes_a_sample: product([of_landing, settings.map_photons.into(), maps]),
             ..need
@@ -107,6 +113,7 @@ impl MemoryNeed {
         let filled = samples.unwrap_or(u64::MAX).saturating_mul(self.maps_bytes_a_sample);
         let maps_bytes = self.maps_bytes.min(filled);
         let Self { scene_bytes, sums_bytes, cells_bytes, pictures_bytes, .. } = *self;
+        let maps_bytes = maps_bytes.saturating_add(self.map_tables_bytes);
         total([scene_bytes, sums_bytes, cells_bytes, maps_bytes, pictures_bytes])
     }
 }
@@ -204,6 +211,8 @@ mod tests {
         let few = grown(1 << 10, 0);
         // 2^11 sides of 3 counters of 4 bytes in 16 replicates.
         assert_eq!((few.maps_bytes, few.cells_bytes), ((16 * 12) << 11, CELLS * GUIDE_BYTES));
+        // 16 bytes for each 256 of the counters.
+        assert_eq!(few.map_tables_bytes, ((16 * 3) << 11) / 256 * 16);
         assert_eq!(grown(1 << 10, 5).maps_bytes, 5 * few.maps_bytes);
         assert!(grown(1 << 12, 0).maps_bytes > few.maps_bytes);
         assert!(few.total_bytes(Some(1)) < few.total_bytes(Some(1 << 10)));

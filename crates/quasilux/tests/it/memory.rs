@@ -85,3 +85,31 @@ fn memory_of_photons_is_bounded() {
         assert!((1.0 / 1.5..=2.0).contains(&ratio), "{estimator}: {ratio}");
     }
 }
+
+/// Many lights, of which the text of the project is the most, and maps of many small elements, of
+/// which it is where their counters would be.
+#[test]
+fn memory_of_many_parts_is_predicted() {
+    let folder = Folder::new("memory_parts");
+    write_room(&folder, "room", &Look::GREY);
+    let room = folder.read("room.toml");
+    let light = |number: u32| {
+        let [x, y] = [number % 180, number / 180].map(|k| 0.1 + 0.01 * f64::from(k));
+        format!(
+            "[[lights]]\nkind = \"point\"\nposition = [{x:.2}, {y:.2}, 1.6]\nintensity_cd = 1\n"
+        )
+    };
+    let lights: String = (0..30_000).map(light).collect();
+    let elements = "map_element_m = 0.002\nmap_adaptive = false\nmap_elements = 100000000\n";
+    for (name, project, estimator) in [
+        ("lights", room.replace("[simulation]", &format!("{lights}[simulation]")), "auto"),
+        ("elements", room.clone() + elements, "bidirectional-map"),
+    ] {
+        folder.write("room.toml", project);
+        let more = ["--rel-tol", "1e-9", "--samples", "16", "--estimator", estimator];
+        let [predicted, taken] = predicted_and_taken(&folder, &more);
+        println!("{name}: {predicted:.3e} predicted, {taken:.3e} taken");
+        let ratio = predicted / taken;
+        assert!((1.0 / 1.4..=1.4).contains(&ratio), "{name}: {ratio}");
+    }
+}
