@@ -118,6 +118,11 @@ impl<K: Copy + PartialEq> Warnings<K> {
         self.0.extend(others.0.into_iter().filter(|warning| warning.kind == kind));
     }
 
+    /// Whether there is one of a kind.
+    pub fn contains(&self, kind: K) -> bool {
+        self.0.iter().any(|warning| warning.kind == kind)
+    }
+
     /// The warnings in the order of their first cases.
     pub fn into_vec(self) -> Vec<Warning<K>> {
         self.0

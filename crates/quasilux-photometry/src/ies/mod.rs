@@ -73,15 +73,17 @@ pub fn read_ies(bytes: &[u8]) -> Result<Parsed, ParseError> {
     let header = read_header(&lines, &mut warnings)?;
     let numbers = || Numbers::new(&lines, header.next_line);
     let mut as_usual = warnings.clone();
-    let Records { table, facts } = match read_numbers(&header, &mut numbers(), &mut as_usual) {
-        Ok(read) => {
+    let read = read_numbers(&header, &mut numbers(), &mut as_usual);
+    // Commas separate numbers. Where that makes no luminaire, or leaves numbers behind it, they are
+    // decimal points if that makes one.
+    let is_odd = |warnings: &Warnings| warnings.contains(WarningKind::TrailingText);
+    let as_points = (read.is_err() || is_odd(&as_usual))
+        .then(|| read_numbers(&header, &mut numbers().with_decimal_commas(), &mut warnings).ok());
+    let Records { table, facts } = match as_points.flatten() {
+        Some(records) if !is_odd(&warnings) => records,
+        _ => {
             warnings = as_usual;
-            read
-        }
-        // Commas separate numbers. What makes no luminaire so may have decimal commas.
-        Err(refused) => {
-            let with_commas = &mut numbers().with_decimal_commas();
-            read_numbers(&header, with_commas, &mut warnings).map_err(|_| refused)?
+            read?
         }
     };
     let facts = LuminaireFacts { keywords: header.keywords, ..facts };

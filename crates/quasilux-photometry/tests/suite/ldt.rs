@@ -114,7 +114,7 @@ fn unequal_planes_keep_their_azimuths() {
 fn intensities_are_per_thousand_lumens_of_the_lamps() {
     let read = File {
         lamps: "1\n2\nT\n5000\n3000K\n80\n20",
-        luminaire: "1200 300 80 1100 200 10 20 10 20 100 62.83185 0.5 0",
+        luminaire: "1200 300 80 1100 200 10 20 10 20 50 62.83185 0.5 0",
         ..ROTATIONAL
     }
     .read();
