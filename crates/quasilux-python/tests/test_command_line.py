@@ -18,7 +18,9 @@ import quasilux
 
 def test_it_tells_its_version() -> None:
     run = command_line("--version")
-    assert (run.returncode, run.stdout) == (0, f"quasilux {quasilux.__version__}\n")
+    version, kernel = run.stdout.splitlines()
+    assert (run.returncode, version) == (0, f"quasilux {quasilux.__version__}")
+    assert kernel.startswith("ray kernel: ")
 
 
 def test_a_project_is_run(tmp_path: Path) -> None:

@@ -374,7 +374,7 @@ def test_figures_reckon_with_exact_numbers() -> None:
     others: tuple[Any, ...] = (figure, "1")
     for other in others:
         with pytest.raises(TypeError):
-            figure + other
+            _ = figure + other
 
 
 def test_a_sensor_is_an_array_of_illuminances(result: quasilux.Result) -> None:
