@@ -336,7 +336,9 @@ mod tests {
             let lines: Vec<&str> = text.lines().collect();
             let first = positions(lines[1], "±");
             assert_eq!(first.len(), 4, "{text}");
-            assert_eq!(first, positions(lines[2], "±"), "{text}");
+            // The uniformity of one point is none.
+            assert_eq!(first[..3], positions(lines[2], "±"), "{text}");
+            assert!(lines[2].ends_with(" -"), "{text}");
             assert_eq!(positions(lines[1], "lx"), positions(lines[2], "lx"), "{text}");
             assert!(lines.iter().all(|l| l.trim_end() == *l));
         }
