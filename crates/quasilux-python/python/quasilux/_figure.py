@@ -44,7 +44,7 @@ class Figure:
     >>> float(figure)
     531.4812
     >>> 0.8 * figure + 20
-    445.2 ± 0.3
+    445.18 ± 0.29
     """
 
     value: float
