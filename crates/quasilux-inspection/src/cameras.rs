@@ -25,9 +25,10 @@ pub(crate) fn check(survey: &Survey<'_>, findings: &mut Findings<'_>) {
             camera.name,
             names::position(position)
         );
-        let cure = units::cure(scene, position, Thing::Other).unwrap_or_else(|| {
-            "expected a place in the room, or one that looks into it".to_owned()
-        });
+        let cure =
+            units::cure(scene, findings.places, position, Thing::Other).unwrap_or_else(|| {
+                "expected a place in the room, or one that looks into it".to_owned()
+            });
         let place = findings.places.cameras[number];
         findings.add(Check::CameraOutside, place, message, cure).at(position);
     }

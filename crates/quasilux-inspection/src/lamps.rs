@@ -10,7 +10,7 @@ use crate::survey::{Survey, Vertex, emitted_direction, position_of};
 use crate::units::{self, Thing};
 use glam::DVec3;
 use quasilux_scene::solids::{Solid, solids_of};
-use quasilux_scene::{Light, Scene};
+use quasilux_scene::{Light, Places, Scene};
 
 /// Directions of the shortest ways out of most places.
 const AXES: [DVec3; 6] = [DVec3::X, DVec3::NEG_X, DVec3::Y, DVec3::NEG_Y, DVec3::Z, DVec3::NEG_Z];
@@ -59,7 +59,7 @@ pub(crate) fn check(survey: &Survey<'_>, findings: &mut Findings<'_>) {
                 "{what} hangs outside the geometry: none of its light was found to reach a sensor \
                  or camera"
             );
-            let cure = cure_outside(scene, position, way.as_ref());
+            let cure = cure_outside(scene, findings.places, position, way.as_ref());
             findings.add(Check::LampOutside, place, message, cure).at(position);
         } else if let Some(solid) = around_lamp_alone(survey, &mut solids, position) {
             let object = names::object(&scene.mesh, solid);
@@ -139,8 +139,8 @@ fn through(survey: &Survey<'_>, from: DVec3, direction: DVec3) -> Option<Move> {
     None
 }
 
-fn cure_outside(scene: &Scene, position: DVec3, way: Option<&Move>) -> String {
-    units::cure(scene, position, Thing::Lamp).unwrap_or_else(|| match way {
+fn cure_outside(scene: &Scene, places: &Places, position: DVec3, way: Option<&Move>) -> String {
+    units::cure(scene, places, position, Thing::Lamp).unwrap_or_else(|| match way {
         Some(way) => cure_by_move(way, scene),
         None => "expected a position inside the room, in m".to_owned(),
     })

@@ -106,7 +106,7 @@ fn report(survey: &Survey<'_>, number: usize, odd: &Odd, findings: &mut Findings
         };
         let message =
             format!("{} {place_of}, as at {}", share(odd.outside.len()), names::position(first));
-        let cure = units::cure(scene, first, Thing::Other).unwrap_or_else(|| {
+        let cure = units::cure(scene, findings.places, first, Thing::Other).unwrap_or_else(|| {
             match odd.outside.len() < odd.tried {
                 true => "expected a grid that ends at the walls".to_owned(),
                 false => {

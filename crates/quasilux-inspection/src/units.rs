@@ -87,31 +87,50 @@ pub(crate) enum Thing {
     Other,
 }
 
-/// A unit in which a position would be inside the geometry, where it is far outside in m.
-fn explaining(scene: &Scene, position: DVec3, thing: Thing) -> Option<LengthUnit> {
+/// Positions that another unit may put inside the geometry.
+struct Explained<'a> {
+    geometry: Extent,
+    positions: &'a [DVec3],
+    /// Of the highest lamp of them, if one is.
+    lamp_height_m: Option<f64>,
+}
+
+impl Explained<'_> {
+    /// Whether all are inside once they are this many times as far from the origin, and the lamp in
+    /// the upper half of the room.
+    fn by(&self, factor: f64) -> bool {
+        let Self { geometry, positions, lamp_height_m } = self;
+        let share = |height: f64| (height * factor - geometry.low.z) / geometry.edges().z;
+        let hangs = |height: f64| (LAMP_HEIGHT[0]..=LAMP_HEIGHT[1]).contains(&share(height));
+        positions.iter().all(|position| geometry.holds(*position * factor))
+            && lamp_height_m.is_none_or(hangs)
+    }
+}
+
+/// What to do about a position that is far outside, and would be inside in another unit; `None`
+/// where none explains it.
+pub(crate) fn cure(
+    scene: &Scene,
+    places: &Places,
+    position: DVec3,
+    thing: Thing,
+) -> Option<String> {
     let geometry = geometry(scene)?;
     let nearest = position.clamp(geometry.low, geometry.high);
     if position.distance(nearest) < geometry.edges().length() {
         return None;
     }
-    let is_explained = |unit: &LengthUnit| {
-        let inside = position * unit.metres();
-        let height = (inside.z - geometry.low.z) / geometry.edges().z;
-        geometry.holds(inside)
-            && (thing == Thing::Other || (LAMP_HEIGHT[0]..=LAMP_HEIGHT[1]).contains(&height))
-    };
-    let others = LengthUnit::ALL.into_iter().filter(|unit| *unit != LengthUnit::Metre);
-    others.into_iter().find(is_explained)
-}
-
-/// What to do about a position that would be inside in another unit; `None` where none explains it.
-pub(crate) fn cure(scene: &Scene, position: DVec3, thing: Thing) -> Option<String> {
-    let unit = explaining(scene, position, thing)?;
+    let lamp_height_m = (thing == Thing::Lamp).then_some(position.z);
+    let explained = Explained { geometry, positions: &[position], lamp_height_m };
+    let from = places.position_unit;
+    let fits = |to: &LengthUnit| *to != from && explained.by(to.metres() / from.metres());
+    let to = LengthUnit::ALL.into_iter().find(fits)?;
     Some(format!(
         "its position would be inside in {}: if it is meant so, say position_units = \"{}\" in \
-         [scene] for all positions, or give this one in m",
-        in_words(unit),
-        unit.name()
+         [scene] for all positions, or give this one in {}",
+        in_words(to),
+        to.name(),
+        in_words(from)
     ))
 }
 
@@ -121,24 +140,21 @@ pub(crate) fn cure(scene: &Scene, position: DVec3, thing: Thing) -> Option<Strin
 pub(crate) fn cure_of_all(scene: &Scene, places: &Places) -> Option<String> {
     let geometry = geometry(scene)?;
     let positions = positions(scene);
-    let highest_m = scene.lights.iter().filter_map(position_of).map(|at| at.z).reduce(f64::max)?;
-    // Larger geometry is as if positions were smaller.
-    let fits = |factor: f64| {
-        let height = (highest_m * factor - geometry.low.z) / geometry.edges().z;
-        let are_held = positions.iter().all(|position| geometry.holds(*position * factor));
-        are_held && (LAMP_HEIGHT[0]..=LAMP_HEIGHT[1]).contains(&height)
-    };
+    let heights_m = scene.lights.iter().filter_map(position_of).map(|at| at.z);
+    let lamp_height_m = Some(heights_m.reduce(f64::max)?);
     let height_m = geometry.edges().z;
+    let explained = Explained { geometry, positions: &positions, lamp_height_m };
     let keys = [("position_units", places.position_unit), ("units", places.unit)];
     let candidates = keys.into_iter().flat_map(|it| LengthUnit::ALL.map(|to| (it, to)));
     let fitting = candidates.filter_map(|((key, from), to)| {
         let ratio = to.metres() / from.metres();
-        let (of_positions, height_m) = match key {
+        // Larger geometry is as if positions were smaller.
+        let (factor, height_m) = match key {
             "units" => (1.0 / ratio, height_m * ratio),
             _ => (ratio, height_m),
         };
         let off = libm::log(height_m / USUAL_HEIGHT_M).abs();
-        (to != from && fits(of_positions)).then_some((off, key, from, to))
+        (to != from && explained.by(factor)).then_some((off, key, from, to))
     });
     let (_, key, from, to) = fitting.min_by(|a, b| a.0.total_cmp(&b.0))?;
     Some(format!(

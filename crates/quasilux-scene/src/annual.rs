@@ -4,6 +4,9 @@
 use crate::{Mesh, Scene};
 use std::ops::Range;
 
+/// When people are at work, in h from midnight (IES LM-83).
+pub(crate) const WORKING_HOURS: Range<f64> = 8.0..18.0;
+
 /// What a year is judged by.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct YearTerms {
@@ -82,10 +85,10 @@ impl OccupiedDays {
     }
 }
 
-/// From 8 to 18 h, on all days (LM-83).
+/// Working hours, on all days (LM-83).
 impl Default for Occupancy {
     fn default() -> Self {
-        Self::daily(8.0..18.0)
+        Self::daily(WORKING_HOURS)
     }
 }
 

@@ -47,7 +47,7 @@ pub use sun::{SUN_RADIUS_DEG, Site, solid_angle_of_the_sun_sr, sun_luminance_cd_
 pub use tabulated::TabulatedSky;
 
 pub use weather::{
-    LightAt, LightAtError, ParsedWeather, Weather, WeatherHour, WeatherLight, WeatherSky,
+    LightAt, LightAtError, ParsedWeather, WEEKDAYS, Weather, WeatherHour, WeatherLight, WeatherSky,
     WeatherUnits, WeatherWarning,
 };
 

@@ -67,6 +67,10 @@ fn lamps_in_wrong_places() {
     let cabinet = body("cabinet", v(5.55, 3.55, 0.1), v(5.95, 3.95, 2.0));
     let storey = lamp_at("[4.5, 2, 3.05]").with(tower.clone());
     let slab = body("slab", v(-0.1, -0.1, 3.01), v(6.1, 4.1, 3.2));
+    // Millimetres among inches.
+    let inches = lamp_at("[114.3, 50.8, 68.58]")
+        .positions_scaled(1.0 / 0.0254)
+        .say("[scene]", "[scene]\nposition_units = \"in\"");
     told(vec![
         outside("5 cm above the ceiling", "[4.5, 2, 3.05]", "\"ceiling\" by more than 0.051 m"),
         outside("1 mm above the ceiling", "[4.5, 2, 3.001]", "\"ceiling\""),
@@ -77,6 +81,7 @@ fn lamps_in_wrong_places() {
         outside("in centimetres", "[450, 200, 270]", "position_units = \"cm\""),
         outside("in inches", "[177, 79, 106]", "position_units = \"in\""),
         outside("in feet", "[14.7, 6.6, 8.9]", "position_units = \"ft\""),
+        lamp("one of another unit", inches, Check::LampOutside, "\"mm\" in [scene] for all"),
         lamp(
             "above the ceiling, in a hall",
             storey,

@@ -14,7 +14,6 @@ pub(super) fn terms(
     let AnnualEntry { occupancy, thresholds } = &project.annual;
     let occupancy = match occupancy {
         OccupancyEntry::Hours { hours, no_weekends, new_year } => {
-            let hours = hours.clone().unwrap_or(8.0..18.0);
             let of_file = || weather.and_then(|weather| weather.new_year_weekday);
             let days = match (no_weekends, new_year.or_else(of_file)) {
                 (None, _) => OccupiedDays::All,
@@ -25,7 +24,7 @@ pub(super) fn terms(
                     return Err(project.error(*place, message));
                 }
             };
-            Occupancy::Hours { hours, days }
+            Occupancy::Hours { hours: hours.clone(), days }
         }
         OccupancyEntry::Schedule { file, column } => {
             let intervals = weather.map_or(0, |weather| weather.hours.len());

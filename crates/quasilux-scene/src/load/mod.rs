@@ -53,8 +53,7 @@ pub fn load(
 ) -> Result<Loaded, LoadError> {
     let project = Project::parse(project_name, project_bytes)?;
     let mut warnings = Vec::new();
-    let Built { scene, mut places, facts } = build(&project, files, &mut warnings)?;
-    places.file_bytes = project_bytes.len() as u64;
+    let Built { scene, places, facts } = build(&project, files, &mut warnings)?;
     let annual = annual::terms(&project, scene.weather.as_ref(), files)?;
     let intervals = scene.weather.as_ref().map_or(0, |weather| weather.hours.len());
     let blinds = blinds::hang(&project, intervals, files, &mut warnings)?;

@@ -58,7 +58,7 @@ impl Places {
         let has_default = place_of(crate::geometry::DEFAULT_MATERIAL).is_some();
         Self {
             file: project.file.clone(),
-            file_bytes: 0,
+            file_bytes: project.file_bytes,
             scene: project.scene_place,
             geometry: project.geometry.clone(),
             y_is_up: project.up == Some(UpAxis::Y),

@@ -2,8 +2,9 @@
 
 use super::document::Section;
 use super::outside::{OutsideEntry, OutsideLight};
-use crate::annual::Thresholds;
+use crate::annual::{Thresholds, WORKING_HOURS};
 use crate::{LoadError, Spanned};
+use quasilux_sky::WEEKDAYS;
 use quasilux_text::Position;
 use std::ops::Range;
 
@@ -17,8 +18,6 @@ const KEYS: [&str; 8] = [
     "useful_lx",
     "sunlight_lx",
 ];
-const WEEKDAYS: [&str; 7] =
-    ["monday", "tuesday", "wednesday", "thursday", "friday", "saturday", "sunday"];
 
 /// What a year is judged by, as far as the project file says it.
 #[derive(Clone, Debug, Default)]
@@ -31,7 +30,7 @@ pub(crate) struct AnnualEntry {
 #[derive(Clone, Debug)]
 pub(crate) enum OccupancyEntry {
     Hours {
-        hours: Option<Range<f64>>,
+        hours: Range<f64>,
         /// Where the project says that nobody is there on weekends.
         no_weekends: Option<Position>,
         /// The day of the week of 1 January, from 0 for Monday, where it says so.
@@ -45,7 +44,7 @@ pub(crate) enum OccupancyEntry {
 
 impl Default for OccupancyEntry {
     fn default() -> Self {
-        Self::Hours { hours: None, no_weekends: None, new_year: None }
+        Self::Hours { hours: WORKING_HOURS, no_weekends: None, new_year: None }
     }
 }
 
@@ -89,7 +88,7 @@ fn occupancy(section: &Section<'_>) -> Result<OccupancyEntry, LoadError> {
     let first_day = section.get("first_day").map(|value| value.name(&WEEKDAYS, &[])).transpose()?;
     let number = |name: &str| (0..).zip(WEEKDAYS).find(|(_, day)| *day == name).map(|(day, _)| day);
     Ok(OccupancyEntry::Hours {
-        hours: hours.transpose()?,
+        hours: hours.transpose()?.unwrap_or(WORKING_HOURS),
         no_weekends: weekends.filter(|_| !has_weekends).map(|value| value.place()),
         new_year: first_day.and_then(number),
     })

@@ -53,6 +53,8 @@ pub(crate) enum UpAxis {
 #[derive(Clone, Debug)]
 pub(crate) struct Project {
     pub(crate) file: String,
+    /// How long the project file is.
+    pub(crate) file_bytes: u64,
     /// Names of the geometry files, at least one.
     pub(crate) geometry: Vec<Spanned<String>>,
     /// Where the section of the geometry is.
@@ -152,6 +154,7 @@ impl Project {
         }
         Ok(Self {
             file: file.to_owned(),
+            file_bytes: bytes.len() as u64,
             geometry,
             scene_place,
             up,

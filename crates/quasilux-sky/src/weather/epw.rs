@@ -4,8 +4,8 @@ use super::interval::usual_interval_s;
 use super::possible::Possible;
 use super::row::{Row, date, number};
 use super::{
-    HOUR_S, PlacedWeather, Weather, WeatherHour, WeatherLight, WeatherUnits, WeatherWarning,
-    year_of,
+    HOUR_S, PlacedWeather, WEEKDAYS, Weather, WeatherHour, WeatherLight, WeatherUnits,
+    WeatherWarning, year_of,
 };
 use crate::sun::Site;
 use quasilux_text::{ParseError, Position, Token, Warnings, quoted};
@@ -132,10 +132,6 @@ fn tell_powers_from_energies(
     };
     warnings.push(WeatherWarning::PowerOrEnergy, at, found, expected);
 }
-
-/// The days of the week as headers write them.
-const WEEKDAYS: [&str; 7] =
-    ["monday", "tuesday", "wednesday", "thursday", "friday", "saturday", "sunday"];
 
 /// What the header says of the first data period.
 struct Declared {

@@ -42,6 +42,10 @@ pub struct Weather {
     year: i32,
 }
 
+/// The days of the week in lower case, as files write them in one case or another.
+pub const WEEKDAYS: [&str; 7] =
+    ["monday", "tuesday", "wednesday", "thursday", "friday", "saturday", "sunday"];
+
 /// The units of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WeatherUnits {
