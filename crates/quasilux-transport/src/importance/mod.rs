@@ -10,6 +10,7 @@
 //! as in a plain room, photons are left alone.
 
 mod cells;
+mod copies;
 mod flux_and_importance;
 mod guiding_tree;
 mod survey;
@@ -17,6 +18,7 @@ mod survey;
 mod tests;
 mod weight_windows;
 
+pub(crate) use copies::Copies;
 pub(crate) use guiding_tree::{GuidingTree, MAX_NODES, Node};
 pub(crate) use weight_windows::{Split, WeightWindows};
 

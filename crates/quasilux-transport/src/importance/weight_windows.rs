@@ -185,7 +185,7 @@ fn next_squares<'g>(
 /// The weight with which photons leave each known cell: in inverse proportion to the root mean
 /// square of their next importance, which makes rays times variance least. Mean squares are
 /// those of the cells around.
-fn importance_weights(
+pub(super) fn importance_weights(
     survey: &Survey,
     solution: &FluxAndImportance,
     guides: &[GuidingTree],

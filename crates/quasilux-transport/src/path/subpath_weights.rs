@@ -28,43 +28,72 @@ pub(crate) struct SubpathWeights {
     vcm: f64,
     /// Of those that leave more of them, in m^2 sr.
     vc: f64,
+    /// Of those among them whose light subpaths have been copied where this one came from: to be
+    /// divided by the copies that leave the next vertex. In m^2 sr.
+    copied: f64,
 }
 
 impl SubpathWeights {
     /// With these sums.
     pub(crate) fn new(vcm: f64, vc: f64) -> Self {
-        Self { vcm, vc }
+        Self { vcm, vc, copied: 0.0 }
     }
 
     /// Where the technique that leaves this vertex alone is used `alone` times, and those that
     /// leave more are `more` times as likely as they were taken for.
     pub(crate) fn times(self, alone: f64, more: f64) -> Self {
-        Self { vcm: product(alone, self.vcm), vc: product(more, self.vc) }
+        Self {
+            vcm: product(alone, self.vcm),
+            vc: product(more, self.vc),
+            copied: product(more, self.copied),
+        }
     }
 
     /// At the first surface that is not specular, where light without extent lands with this
     /// density in m^-2: an eye subpath that ends here asks the light or its image, and nothing
     /// meets it. Without a density it asks nothing.
     pub(crate) fn of_landing(density_m2: Option<f64>) -> Self {
-        Self { vcm: density_m2.map_or(0.0, |density_m2| 1.0 / density_m2), vc: 0.0 }
+        Self::new(density_m2.map_or(0.0, |density_m2| 1.0 / density_m2), 0.0)
     }
 
     /// After a flight of this length that ends at this cosine.
     pub(crate) fn arrived(self, distance_m: f64, cos: f64) -> Self {
-        Self { vcm: self.vcm * distance_m * distance_m / cos, vc: self.vc / cos }
+        Self {
+            vcm: self.vcm * distance_m * distance_m / cos,
+            vc: self.vc / cos,
+            copied: self.copied / cos,
+        }
     }
 
     /// After a direction at this cosine was drawn with the density `pdf_sr`, where the opposite
     /// way has `reverse_pdf_sr`.
     pub(crate) fn scattered(self, cos: f64, pdf_sr: f64, reverse_pdf_sr: f64) -> Self {
-        Self { vcm: 1.0 / pdf_sr, vc: cos / pdf_sr * self.towards(reverse_pdf_sr) }
+        Self::new(1.0 / pdf_sr, cos / pdf_sr * self.towards(reverse_pdf_sr))
+    }
+
+    /// The same of an eye path at a vertex that so many copies of light subpaths leave.
+    pub(crate) fn scattered_where_copied(
+        self,
+        cos: f64,
+        pdf_sr: f64,
+        reverse_pdf_sr: f64,
+        copies: f64,
+    ) -> Self {
+        let more = product(reverse_pdf_sr, self.vc) * copies;
+        let [vc, copied] = [self.vcm, more].map(|sum| cos / pdf_sr * sum);
+        Self { vcm: 1.0 / pdf_sr, vc, copied }
+    }
+
+    /// At a vertex that so many copies of light subpaths leave; 1 at lights.
+    pub(crate) fn at_copies(self, copies: f64) -> Self {
+        Self { vc: self.vc + self.copied / copies, copied: 0.0, ..self }
     }
 
     /// After one of finitely many directions was taken: `cos` is that of the direction in which it
     /// came, `scale` how many times brighter radiance is behind than before. Where light is bent,
     /// densities of directions go with both: `n^2 cos dw` is the same on both sides.
     pub(crate) fn mirrored(self, cos: f64, scale: f64) -> Self {
-        Self { vcm: 0.0, vc: self.vc * cos * scale }
+        Self { vcm: 0.0, vc: self.vc * cos * scale, copied: self.copied * cos * scale }
     }
 
     /// After a way between two vertices, perhaps over plane mirrors or through panes, where each
@@ -86,7 +115,8 @@ impl SubpathWeights {
     /// The weight of an eye subpath that runs into a facet: `pdf_m2` as it is asked for light,
     /// `emission` as a photon leaves it.
     pub(crate) fn of_hit(self, pdf_m2: f64, emission: f64) -> f64 {
-        1.0 / (1.0 + product(pdf_m2, self.vcm) + product(emission, self.vc))
+        let vc = self.at_copies(1.0).vc;
+        1.0 / (1.0 + product(pdf_m2, self.vcm) + product(emission, vc))
     }
 }
 

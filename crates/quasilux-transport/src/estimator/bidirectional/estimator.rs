@@ -88,6 +88,9 @@ impl<'a, S: Spectrum> BidirectionalEstimator<'a, S> {
         let mut exact = exact(context, &targets, &mut prepared_rays, watch)?;
         let invalid_points = exact.iter_mut().map(Exact::drop_invalid).sum();
         let mut engine = Engine::new(context, &targets, watch)?;
+        if settings.interval != IntervalKind::Certified && std::env::var_os("QL_COPIES").is_some() {
+            engine.copy_where_it_matters(&targets);
+        }
         prepared_rays += plan_joins(&mut engine, watch)?;
         let caps = Caps::new(&engine, watch)?;
         for (receiver, most_lx) in
@@ -274,6 +277,7 @@ impl<S: Spectrum> Estimator for BidirectionalEstimator<'_, S> {
                 out.value(&self.quantum);
                 out.value(&self.exact.iter().map(Exact::sum_lx).collect::<Vec<f64>>());
                 out.value(&SUBPATHS);
+                self.engine.put_copies(out);
                 out.value(&[*emitters_found_by, *sky_found_by]);
                 let of_receivers = receivers.iter().map(|it| [it.area_m2, it.per_sure_m2]);
                 out.value(&of_receivers.collect::<Vec<[f64; 2]>>());

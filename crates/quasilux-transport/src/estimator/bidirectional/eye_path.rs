@@ -229,14 +229,15 @@ impl<S: Spectrum> EyePath<'_, S> {
             square_m2: distance_m * distance_m,
             is_narrow: is_narrow(bsdf),
         };
-        let here = self.beside_light_subpaths(arrived, Some(&edge));
+        let copies = engine.copies_at(at);
+        let here = self.beside_light_subpaths(arrived, Some(&edge)).map(|it| it.at_copies(copies));
         self.vertices += 1;
         let vertex = &Vertex::on(&context.world, at, surface, self.beta);
         self.bounces_asked = self.bounces + 1;
         work.shadows.max_bounces =
             context.max_bounces.map_or(u32::MAX, |most| most - self.bounces_asked);
         let number = self.vertices as usize;
-        let eye_vertex = &EyeVertex { vertex, weights: here, number };
+        let eye_vertex = &EyeVertex { vertex, weights: here, copies, number };
         self.sample_direct_pointlike(engine, eye_vertex, work);
         self.sample_direct_images(engine, eye_vertex, work);
         self.sample_direct_areas(engine, eye_vertex, eye_vertex, work);
@@ -247,7 +248,8 @@ impl<S: Spectrum> EyePath<'_, S> {
         let pdfs_sr =
             [bsdf.survival_pdf_sr(wo, next.wi, favour), bsdf.survival_pdf_sr(next.wi, wo, 1.0)];
         let cos = next.wi.z.abs();
-        self.weights = here.map(|it| it.scattered(cos, pdfs_sr[0], pdfs_sr[1]));
+        self.weights =
+            here.map(|it| it.scattered_where_copied(cos, pdfs_sr[0], pdfs_sr[1], copies));
         self.distance_m = 0.0;
         self.asked_from = Some(Asking::at(vertex));
         self.mirrored = MirroredFrom::new(context, vertex, pdfs_sr[0]);

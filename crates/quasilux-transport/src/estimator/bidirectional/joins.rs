@@ -94,7 +94,8 @@ impl Join {
         shadows: &mut ShadowQueue<S>,
     ) {
         let &Self { direction, distance_m, ref edge } = self;
-        let LightVertex { at, frame, wo, flux_lm, bounces, weights, is_narrow, found_by } = vertex;
+        let LightVertex { at, frame, wo, flux_lm, bounces, weights, is_narrow, found_by, .. } =
+            vertex;
         let bsdf = engine.context.world.bsdf(at);
         let wi = frame.to_local(-direction);
         if wi.z <= 0.0 && !(wi.z < 0.0 && bsdf.transmits()) {
@@ -104,7 +105,10 @@ impl Join {
         let &JoinEdge { cos, cos_there, square_m2, .. } = edge;
         let joins = joiner.receiver.joins(edge);
         let photons = joiner.receiver.photons(*is_narrow, *found_by);
-        let to_eye = product(bsdf.survival_pdf_sr(*wo, wi, 1.0) * cos / square_m2, photons / joins);
+        let to_eye = product(
+            vertex.split * bsdf.survival_pdf_sr(*wo, wi, 1.0) * cos / square_m2,
+            photons / joins,
+        );
         let to_light = product(
             joiner.vertex.survival_pdf_sr(direction, favour(0)) * wi.z.abs() / square_m2,
             weights.numbered(1).towards(bsdf.survival_pdf_sr(wi, *wo, favour(1))) / joins,

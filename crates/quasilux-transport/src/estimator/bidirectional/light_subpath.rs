@@ -40,6 +40,9 @@ pub(super) struct LightVertex<S> {
     pub(super) weights: LightWeights,
     pub(super) is_narrow: bool,
     pub(super) found_by: FoundBy,
+    /// Copies of its subpath that leave it, on average, and of each that comes.
+    pub(super) copies: f64,
+    pub(super) split: f64,
 }
 
 /// A vertex with the number of its subpath.
@@ -49,6 +52,7 @@ struct FoundVertex<S> {
 }
 
 /// A light subpath on its way.
+#[derive(Clone)]
 struct LightSubpath<'p, S> {
     /// Its number among those that travel together.
     number: usize,
@@ -60,6 +64,8 @@ struct LightSubpath<'p, S> {
     /// Surfaces and panes so far.
     bounces: u32,
     gain: Gain,
+    /// Copies that left its last vertex, on average.
+    copies: f64,
     leg: Leg<S>,
 }
 
@@ -174,6 +180,7 @@ impl<S: Spectrum> LightSubpaths<S> {
         let (mut queries, mut hits, mut arrivals) =
             (Vec::new(), Vec::<Option<Hit>>::new(), Vec::new());
         let (mut rays, mut cut) = (0, 0);
+        let mut born = Vec::new();
         for _ in 0..MAX_EVENTS {
             if travelling.is_empty() {
                 break;
@@ -189,7 +196,7 @@ impl<S: Spectrum> LightSubpaths<S> {
                 pass(&subpath.passing(at));
                 match at {
                     Some(at) => {
-                        let goes_on = subpath.arrive(engine, at, &mut found, &mut flux);
+                        let goes_on = subpath.arrive(engine, at, &mut found, &mut born, &mut flux);
                         cut += u64::from(!goes_on && subpath.gain.is_cut());
                         goes_on
                     }
@@ -199,6 +206,7 @@ impl<S: Spectrum> LightSubpaths<S> {
                     }
                 }
             });
+            travelling.append(&mut born);
         }
         for subpath in &travelling {
             flux.absorb(subpath.lm(), engine.flux_quantum);
@@ -248,6 +256,7 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
             flux_lm,
             bounces: 0,
             gain: Gain::NONE,
+            copies: 1.0,
             leg,
         })
     }
@@ -265,6 +274,7 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
         engine: &Engine<'_, '_, S>,
         at: &Interaction,
         found: &mut Vec<FoundVertex<S>>,
+        born: &mut Vec<Self>,
         flux: &mut FluxTally,
     ) -> bool {
         let context = engine.context;
@@ -284,11 +294,9 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
         if !engine.grow(&mut self.gain, at, wo, TransportMode::Importance, self.bounces) {
             return false;
         }
-        let next = |sampler: &mut Sampler<'_>| {
-            bsdf.sample(wo, at.front, TransportMode::Importance, sampler)
-        };
         if bsdf.is_specular() {
-            let Some(next) = next(&mut self.sampler) else { return false };
+            let next = bsdf.sample(wo, at.front, TransportMode::Importance, &mut self.sampler);
+            let Some(next) = next else { return false };
             self.pass_specular(engine, at, wo.z, &next);
             return self.go_on(engine, at, &frame, &next, flux);
         }
@@ -296,16 +304,59 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
         let (flux_lm, bounces) = (self.flux_lm, self.bounces);
         let found_by = engine.found_by(&self.photon);
         let is_narrow = is_narrow(bsdf);
-        let vertex =
-            LightVertex { at: *at, frame, wo, flux_lm, bounces, weights, is_narrow, found_by };
+        let copies = engine.copies_at(at);
+        let split = copies / self.copies;
+        let vertex = LightVertex {
+            at: *at,
+            frame,
+            wo,
+            flux_lm,
+            bounces,
+            weights,
+            is_narrow,
+            found_by,
+            copies,
+            split,
+        };
+        let count = self.count_copies(split);
+        self.copies = copies;
+        self.flux_lm = self.flux_lm * split.recip();
+        for number in (1..count).rev() {
+            let mut copy = self.clone();
+            copy.sampler = self.sampler.child(number);
+            if copy.scatter(engine, &vertex, flux) {
+                born.push(copy);
+            }
+        }
+        let goes_on = count > 0 && self.scatter(engine, &vertex, flux);
         found.push(FoundVertex { subpath: self.number, vertex });
-        let Some(next) = next(&mut self.sampler) else { return false };
+        goes_on
+    }
+
+    /// One of the two whole numbers next to the mean.
+    fn count_copies(&mut self, mean: f64) -> u32 {
+        let whole = mean.floor();
+        let more = mean > whole && self.sampler.choose_bool(mean - whole);
+        whole as u32 + u32::from(more)
+    }
+
+    /// Goes on from a surface that is not specular; whether it does.
+    fn scatter(
+        &mut self,
+        engine: &Engine<'_, '_, S>,
+        vertex: &LightVertex<S>,
+        flux: &mut FluxTally,
+    ) -> bool {
+        let LightVertex { at, frame, wo, weights, is_narrow, split, .. } = vertex;
+        let bsdf = engine.context.world.bsdf(at);
+        let next = bsdf.sample(*wo, at.front, TransportMode::Importance, &mut self.sampler);
+        let Some(next) = next else { return false };
         let cos = next.wi.z.abs();
-        let weights = weights.scattered(bsdf, wo, next.wi);
-        let last = LastVertex::Surface { cos, is_narrow };
+        let weights = weights.scattered(bsdf, *wo, next.wi, *split);
+        let last = LastVertex::Surface { cos, is_narrow: *is_narrow };
         let (class, mirrored) = (LightPathClass::Found, None);
         self.leg = Leg { weights, distance_m: 0.0, last, class, mirrored };
-        self.go_on(engine, at, &frame, &next, flux)
+        self.go_on(engine, at, frame, &next, flux)
     }
 
     /// Goes on from a specular surface: straight through a pane, or with a leg of its own.

@@ -32,9 +32,15 @@ impl LightWeights {
         Self(self.0.map(change))
     }
 
-    /// After it was scattered along `wi`, having come from `wo`.
-    pub(super) fn scattered<S: Spectrum>(&self, bsdf: &Bsdf<S>, wo: DVec3, wi: DVec3) -> Self {
-        let pdf_sr = bsdf.survival_pdf_sr(wo, wi, 1.0);
+    /// After it was scattered along `wi`, having come from `wo`, in so many copies on average.
+    pub(super) fn scattered<S: Spectrum>(
+        &self,
+        bsdf: &Bsdf<S>,
+        wo: DVec3,
+        wi: DVec3,
+        copies: f64,
+    ) -> Self {
+        let pdf_sr = copies * bsdf.survival_pdf_sr(wo, wi, 1.0);
         let [other_sr, favoured_sr] =
             [1.0, favour(FAVOURED)].map(|favour| bsdf.survival_pdf_sr(wi, wo, favour));
         self.followed(|before, is_favoured| {

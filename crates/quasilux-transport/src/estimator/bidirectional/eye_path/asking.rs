@@ -25,6 +25,8 @@ const ASKED_AT_ONCE: usize = 8;
 pub(super) struct EyeVertex<'v, 'w, S> {
     pub(super) vertex: &'v Vertex<'w, S>,
     pub(super) weights: EyeWeights,
+    /// Copies of light subpaths that leave it.
+    pub(super) copies: f64,
     /// In its path, 0 for the target.
     pub(super) number: usize,
 }
@@ -121,7 +123,7 @@ impl<S: Spectrum> EyePath<'_, S> {
         let u = self.sampler.next_1d();
         let share = |light: u32, direction: DVec3, lx: f64| {
             let landings = engine.sources.per_lm(light as usize) * lx;
-            let to_eye = eye_vertex.to_eye(direction, FoundBy::Photons);
+            let to_eye = eye_vertex.to_eye(direction, FoundBy::Photons, 1.0);
             of_connection(product(landings, to_eye), 0.0)
         };
         let query = engine.context.image_query(self.number, eye_vertex.vertex);
@@ -226,7 +228,7 @@ impl<S: Spectrum> EyePath<'_, S> {
             }
             let line = engine.sources.pdf_line(vertex.position(), -direction, of_sun);
             let found_by = if of_sun { FoundBy::Photons } else { engine.sky_found_by };
-            let landed = product(line * cos / pdf_sr, eye_vertex.to_eye(direction, found_by));
+            let landed = product(line * cos / pdf_sr, eye_vertex.to_eye(direction, found_by, 1.0));
             let hit = eye_vertex.survival_pdf_sr(direction) / pdf_sr;
             let lx = cd_m2 * cos / pdf_sr * of_connection(landed, hit);
             let light = vertex.weight(direction) * lx;
@@ -312,8 +314,10 @@ struct Connection<'l, S> {
 impl<S: Spectrum> EyeVertex<'_, '_, S> {
     /// The techniques that leave this vertex and more to light subpaths, over the density with
     /// which light that comes from `direction` makes it.
-    fn to_eye(&self, direction: DVec3, found: FoundBy) -> f64 {
-        self.weights.select(found).towards(self.vertex.reverse_survival_pdf_sr(direction))
+    fn to_eye(&self, direction: DVec3, found: FoundBy, copies_there: f64) -> f64 {
+        let copied = self.copies / copies_there;
+        let back_sr = copied * self.vertex.reverse_survival_pdf_sr(direction);
+        self.weights.select(found).towards(back_sr)
     }
 
     /// Density in sr^-1 of paths that go on from here along `direction`, survival in it.
@@ -325,7 +329,7 @@ impl<S: Spectrum> EyeVertex<'_, '_, S> {
     /// over mirrors or not.
     fn beside_asked_sr(&self, engine: &Engine<'_, '_, S>, point: &EmitterPoint) -> f64 {
         let &EmitterPoint { direction, lx_sr, kept, .. } = point;
-        let to_eye = self.to_eye(direction, engine.emitters_found_by);
+        let to_eye = self.to_eye(direction, engine.emitters_found_by, 1.0);
         let landed = product(engine.sources.of_emitters_per_lm() * lx_sr, to_eye);
         kept * (self.survival_pdf_sr(direction) + landed)
     }
@@ -333,7 +337,7 @@ impl<S: Spectrum> EyeVertex<'_, '_, S> {
     /// The part of the light of a lamp that photons leave, where it is asked with this probability.
     fn beside_landings(&self, sample: LightSample<S>, per_lm: f64, pdf: f64) -> LightSample<S> {
         let landings = per_lm * sample.illuminance_lx / pdf;
-        let to_eye = self.to_eye(sample.direction, FoundBy::Photons);
+        let to_eye = self.to_eye(sample.direction, FoundBy::Photons, 1.0);
         let share = of_connection(product(landings, to_eye), 0.0);
         LightSample { light: sample.light * (share / pdf), ..sample }
     }
@@ -344,7 +348,8 @@ impl<S: Spectrum> EyeVertex<'_, '_, S> {
         engine: &Engine<'_, '_, S>,
         light_vertex: &'l LightVertex<S>,
     ) -> Option<Connection<'l, S>> {
-        let LightVertex { at, frame, wo, flux_lm, weights, found_by, .. } = light_vertex;
+        let LightVertex { at, frame, wo, flux_lm, weights, found_by, copies, split, .. } =
+            light_vertex;
         let way = at.position - self.vertex.position();
         let square_m2 = way.length_squared();
         let distance_m = square_m2.sqrt();
@@ -367,8 +372,8 @@ impl<S: Spectrum> EyeVertex<'_, '_, S> {
             )),
         );
         let to_eye = product(
-            bsdf.survival_pdf_sr(*wo, wi, 1.0) * cos / square_m2,
-            self.to_eye(direction, *found_by),
+            split * bsdf.survival_pdf_sr(*wo, wi, 1.0) * cos / square_m2,
+            self.to_eye(direction, *found_by, *copies),
         );
         let share = of_connection(to_eye / CONNECTED, to_light / CONNECTED);
         let lx = cos * cos_there / square_m2 * share / CONNECTED;

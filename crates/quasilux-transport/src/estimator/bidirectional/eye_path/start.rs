@@ -121,7 +121,7 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
         work.shadows.max_bounces =
             context.max_bounces.map_or(u32::MAX, |most| most.saturating_sub(self.bounces_asked));
         // Photons of lights that have no extent, and of their images, do not count here.
-        let alone = &EyeVertex { vertex, weights: EyeWeights::default(), number: 0 };
+        let alone = &EyeVertex { vertex, weights: EyeWeights::default(), copies: 1.0, number: 0 };
         self.sample_direct_some_pointlikes(engine, vertex, work);
         self.sample_direct_images(engine, alone, work);
         self.sample_direct_at_start(engine, vertex, work);
@@ -158,6 +158,11 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
         is_of_area: bool,
     ) -> EyeVertex<'v, 'w, S> {
         let photons = self.receiver.straight_m2(is_of_area);
-        EyeVertex { vertex, number: 0, weights: EyeWeights([SubpathWeights::new(photons, 0.0); 2]) }
+        EyeVertex {
+            vertex,
+            number: 0,
+            copies: 1.0,
+            weights: EyeWeights([SubpathWeights::new(photons, 0.0); 2]),
+        }
     }
 }
