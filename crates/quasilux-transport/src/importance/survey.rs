@@ -26,6 +26,8 @@ use std::f64::consts::PI;
 const PHOTONS: u64 = 1 << 12;
 /// Sensor points that are asked, spread over all.
 const MAX_SENSORS: usize = 256;
+/// Lights that they are lit straight by, of all of them together; one sensor is asked at least.
+const MAX_LIT: usize = 1 << 18;
 /// Rays of all of them together, and the least of each.
 const SENSOR_RAYS: u64 = 1 << 12;
 const MIN_SENSOR_RAYS: u64 = 16;
@@ -194,12 +196,14 @@ impl Survey {
     /// Traces rays from all lights and from some of the targets; `None` where there is nothing.
     pub(crate) fn new<S: Spectrum>(context: &Context<'_, S>, targets: &[Target]) -> Option<Self> {
         let cells = Cells::new(&context.world)?;
+        let lights = context.lights.pointlikes.len().max(1);
+        let most_sensors = MAX_SENSORS.min(MAX_LIT / lights).max(1);
         let mut survey = Self {
             number_of_cell: vec![Regions::UNKNOWN; cells.len()],
             cells,
             known: Vec::new(),
             sensors: Vec::new(),
-            sensor_step: targets.len().div_ceil(MAX_SENSORS).max(1),
+            sensor_step: targets.len().div_ceil(most_sensors).max(1),
             first_landings: Vec::new(),
             rays: 0,
             sent: 0,

@@ -160,6 +160,8 @@ mod tests {
     struct Chain {
         positions: Vec<DVec3>,
         normals: Vec<DVec3>,
+        /// Copies of light subpaths that leave each; 1 of the light.
+        copies: Vec<f64>,
         is_point: bool,
         flux_lm: f64,
         /// Of the point, toward the last surface; or the luminance of the facet.
@@ -189,9 +191,12 @@ mod tests {
                 (sum + 0.3 * numbers.direction() * sum.length()).normalize()
             });
             let normals = normals.collect();
+            let mut copies: Vec<f64> =
+                (1..nodes).map(|_| libm::exp2((7.0 * numbers.next()).floor())).collect();
+            copies.push(1.0);
             let [flux_lm, brightness, facets_lm] =
                 [(); 3].map(|()| libm::exp10(4.0 * numbers.next()));
-            Self { positions, normals, is_point, flux_lm, brightness, facets_lm }
+            Self { positions, normals, copies, is_point, flux_lm, brightness, facets_lm }
         }
 
         fn surfaces(&self) -> usize {
@@ -247,7 +252,7 @@ mod tests {
             let by_eye = |last: usize| (0..last).map(|a| self.drawn_m2(a, a + 1)).product::<f64>();
             let by_light = |first: usize| {
                 let drawn = (first..surfaces).map(|a| self.drawn_m2(a + 1, a)).product::<f64>();
-                self.landing_m2() * drawn
+                self.copies[first + 1] * self.landing_m2() * drawn
             };
             let connected = (0..=surfaces).map(|of_light| match of_light {
                 0 => by_eye(surfaces),
@@ -257,7 +262,12 @@ mod tests {
             connected.chain((!self.is_point).then_some(hit)).collect()
         }
 
-        /// What paths carry to vertex `to` from `from`, by way of the surfaces between them.
+        /// Copies that leave a place for each that comes from the next one.
+        fn split(&self, at: usize) -> f64 {
+            self.copies[at] / self.copies[at + 1]
+        }
+
+        /// What paths carry by way of these places.
         fn carried(&self, start: SubpathWeights, nodes: &[usize]) -> SubpathWeights {
             let arrive = |weights: SubpathWeights, a: usize, b: usize| {
                 weights.arrived(self.distance_m(a, b), self.cos(b, a))
@@ -268,7 +278,14 @@ mod tests {
                 if let Some(next) = nodes.get(at + 1) {
                     let cos = self.cos(nodes[at], *next);
                     let back = self.cos(nodes[at], nodes[at - 1]);
-                    weights = weights.scattered(cos, cos * FRAC_1_PI, back * FRAC_1_PI);
+                    let [pdf_sr, back_sr] = [cos, back].map(|cos| cos * FRAC_1_PI);
+                    let here = nodes[at];
+                    weights = if *next < here {
+                        weights.scattered(cos, pdf_sr * self.split(here), back_sr)
+                    } else {
+                        let settled = weights.at_copies(self.copies[here]);
+                        settled.scattered_where_copied(cos, pdf_sr, back_sr, self.copies[here])
+                    };
                 }
             }
             weights
@@ -281,7 +298,8 @@ mod tests {
             }
             let cos = self.cos(0, 1);
             let left = SubpathWeights::default().scattered(cos, cos * FRAC_1_PI, 0.0);
-            self.carried(left, &(0..=at).collect::<Vec<usize>>())
+            let carried = self.carried(left, &(0..=at).collect::<Vec<usize>>());
+            carried.at_copies(self.copies[at])
         }
 
         /// Of the light subpath at a surface.
@@ -301,7 +319,8 @@ mod tests {
             }
             let cos = self.cos(last, last - 1);
             let back = self.cos(last, light) * FRAC_1_PI;
-            self.carried(landed.scattered(cos, cos * FRAC_1_PI, back), &nodes[1..])
+            let pdf_sr = cos * FRAC_1_PI * self.split(last);
+            self.carried(landed.scattered(cos, pdf_sr, back), &nodes[1..])
         }
 
         /// The weight of each technique as subpaths compute it.
@@ -313,7 +332,8 @@ mod tests {
             };
             let connected = (0..=surfaces).map(|of_light| {
                 let at = surfaces - of_light;
-                let to_eye = self.of_eye(at).towards(back_sr(at, at.saturating_sub(1)));
+                let back_to_eye_sr = self.split(at) * back_sr(at, at.saturating_sub(1));
+                let to_eye = self.of_eye(at).towards(back_to_eye_sr);
                 if of_light == 0 {
                     let hit = match self.is_point {
                         true => 0.0,
@@ -324,7 +344,7 @@ mod tests {
                 let next = at + 1;
                 let to_light = self.of_light(next).towards(back_sr(next, next + 1));
                 of_connection(
-                    product(self.drawn_m2(next, at), to_eye),
+                    product(self.split(next) * self.drawn_m2(next, at), to_eye),
                     product(self.drawn_m2(at, next), to_light),
                 )
             });
@@ -334,7 +354,7 @@ mod tests {
     }
 
     /// The bound of the module, on 4000 random ways of 0 to 6 surfaces whose techniques differ by
-    /// up to 40 decades: weights sum up to one, and weight over density is one over the sum of all
+    /// up to 40 decades, and of which light subpaths are copied up to 64 times: weights sum up to one, and weight over density is one over the sum of all
     /// densities, so a contribution is no larger than that of plain paths, of plain photons, or of
     /// any other technique. A weight that is 1e-6 off is seen.
     #[test]

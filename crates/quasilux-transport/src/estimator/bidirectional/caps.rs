@@ -28,6 +28,9 @@ pub(super) use of_pixels::PixelCaps;
 use std::f64::consts::PI;
 use surfaces::Surfaces;
 
+/// By what factor copies make K of light subpaths larger (`samples`).
+const RISES: f64 = 2.0;
+
 /// Bounds of all targets.
 pub(super) struct Caps {
     of_targets: Vec<Cap>,
@@ -88,6 +91,7 @@ impl Caps {
         let surfaces = Surfaces::new(context);
         let no_bounce = context.max_bounces == Some(0);
         let samples = samples_of_subpaths(world);
+        let of_copies = if engine.copies.are_several() { RISES } else { 1.0 };
         let crossings = crossings_of_discs(world);
         let kinds = kinds(engine, &surfaces, samples);
         let has_specular = world.has_specular_facets();
@@ -111,7 +115,7 @@ impl Caps {
             };
             let none = Cap { unseen_lx: 0.0, sample_lx: 0.0, on_cell_lx };
             kinds.iter().fold(none, |cap, kind| Cap {
-                unseen_lx: cap.unseen_lx.max(largest(kind, samples, crossings)),
+                unseen_lx: cap.unseen_lx.max(largest(kind, samples * of_copies, crossings)),
                 sample_lx: cap.sample_lx.max(largest(
                     &Kind { eye_samples: 1.0, ..*kind },
                     1.0,

@@ -4,7 +4,6 @@
 use super::plan::{FoundBy, Receiver, largest_disc_m2, receivers};
 use super::sources::{Photon, PhotonFluxes, Sources};
 use crate::bsdf::TransportMode;
-use crate::codec::Writer;
 use crate::context::Context;
 use crate::cutoff::Gain;
 use crate::importance::Copies;
@@ -29,8 +28,8 @@ pub(super) struct Engine<'l, 'a, S> {
     pub(super) sky_found_by: FoundBy,
     /// Of the fluxes of photons.
     pub(super) flux_quantum: Quantum,
-    /// Copies of light subpaths by place.
-    copies: Option<Copies>,
+    /// Copies of light subpaths by place; one everywhere before it is planned.
+    pub(super) copies: Copies,
     /// Whether light may grow on its way: surfaces may send on more than they get.
     may_grow: bool,
 }
@@ -53,27 +52,12 @@ impl<'l, 'a, S: Spectrum> Engine<'l, 'a, S> {
             receivers: receivers(context, targets, watch)?,
             emitters_found_by: FoundBy::new(emitters_lx, fluxes.emitters_lm / area_m2),
             sky_found_by: FoundBy::new(sky_lx, fluxes.sky_lm / area_m2),
-            copies: None,
+            copies: Copies::single(0),
             may_grow: context.world.may_send_on_more(),
             flux_quantum: Quantum::for_reference(fluxes.most_lm().max(f64::MIN_POSITIVE)),
             fluxes,
             sources,
         })
-    }
-
-    /// Lets light subpaths be copied where they matter more.
-    pub(super) fn copy_where_it_matters(&mut self, targets: &[Target]) {
-        self.copies = Copies::new(self.context, targets);
-    }
-
-    /// How many copies of a light subpath leave a surface that is not specular.
-    pub(super) fn copies_at(&self, at: &Interaction) -> f64 {
-        self.copies.as_ref().map_or(1.0, |copies| copies.at(at))
-    }
-
-    /// Puts what light subpaths are copied by among the decisions.
-    pub(super) fn put_copies(&self, out: &mut Writer) {
-        self.copies.iter().for_each(|copies| copies.put(out));
     }
 
     /// Adds a surface to the way of a subpath that came there along `-wo` after so many bounces;

@@ -14,6 +14,7 @@ use crate::cutoff;
 use crate::estimator::Estimator;
 use crate::estimator::block::BlockFrame;
 use crate::estimator::exact::{Exact, exact};
+use crate::importance::Copies;
 use crate::path::sections::WorkCounts;
 use crate::settings::{IntervalKind, Settings};
 use crate::spectrum::Spectrum;
@@ -88,8 +89,10 @@ impl<'a, S: Spectrum> BidirectionalEstimator<'a, S> {
         let mut exact = exact(context, &targets, &mut prepared_rays, watch)?;
         let invalid_points = exact.iter_mut().map(Exact::drop_invalid).sum();
         let mut engine = Engine::new(context, &targets, watch)?;
-        if settings.interval != IntervalKind::Certified && std::env::var_os("QL_COPIES").is_some() {
-            engine.copy_where_it_matters(&targets);
+        let is_certified = settings.interval == IntervalKind::Certified;
+        if !is_certified && context.max_bounces != Some(0) {
+            engine.copies = Copies::new(context, &targets);
+            prepared_rays += engine.copies.rays;
         }
         prepared_rays += plan_joins(&mut engine, watch)?;
         let caps = Caps::new(&engine, watch)?;
@@ -98,7 +101,6 @@ impl<'a, S: Spectrum> BidirectionalEstimator<'a, S> {
         {
             receiver.most_lx = most_lx;
         }
-        let is_certified = settings.interval == IntervalKind::Certified;
         let replicates = settings.effective_replicates();
         let empty = TargetSums::new(context.listed_terms);
         Some(Self {
@@ -270,14 +272,14 @@ impl<S: Spectrum> Estimator for BidirectionalEstimator<'_, S> {
     }
 
     fn decisions(&self) -> Decisions {
-        let Engine { receivers, emitters_found_by, sky_found_by, .. } = &self.engine;
+        let Engine { receivers, emitters_found_by, sky_found_by, copies, .. } = &self.engine;
         Decisions {
             connected_photons: Some(SUBPATHS),
             digest: digest(|out| {
                 out.value(&self.quantum);
                 out.value(&self.exact.iter().map(Exact::sum_lx).collect::<Vec<f64>>());
                 out.value(&SUBPATHS);
-                self.engine.put_copies(out);
+                copies.put(out);
                 out.value(&[*emitters_found_by, *sky_found_by]);
                 let of_receivers = receivers.iter().map(|it| [it.area_m2, it.per_sure_m2]);
                 out.value(&of_receivers.collect::<Vec<[f64; 2]>>());

@@ -229,7 +229,7 @@ impl<S: Spectrum> EyePath<'_, S> {
             square_m2: distance_m * distance_m,
             is_narrow: is_narrow(bsdf),
         };
-        let copies = engine.copies_at(at);
+        let copies = engine.copies.at(at);
         let here = self.beside_light_subpaths(arrived, Some(&edge)).map(|it| it.at_copies(copies));
         self.vertices += 1;
         let vertex = &Vertex::on(&context.world, at, surface, self.beta);

@@ -304,7 +304,7 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
         let (flux_lm, bounces) = (self.flux_lm, self.bounces);
         let found_by = engine.found_by(&self.photon);
         let is_narrow = is_narrow(bsdf);
-        let copies = engine.copies_at(at);
+        let copies = engine.copies.at(at);
         let split = copies / self.copies;
         let vertex = LightVertex {
             at: *at,

@@ -4,6 +4,11 @@
 //! counting it, with `n <= 1 + s n'` of the next. Where the surfaces with the largest s lie in one
 //! plane, and nothing mirrors, the next is another: with r the largest s of all others, `n <= 1 + s
 //! (1 + r n)`. Where eye paths favour a surface more of them go on, and each adds as much less.
+//!
+//! Of copies of a light subpath each carries as much less. Given one with a sample, its siblings
+//! bring at most what it would have brought alone, where it came through more and more copies: what
+//! `c` copies bring beside it is `1 - 1 / c` of that. Where copies become few and many again on the
+//! same path they may bring as much once more, so where there are any, K is twice as large.
 
 use crate::bsdf::Bsdf;
 use crate::spectrum::Spectrum;
