@@ -16,7 +16,7 @@ use crate::estimator::block::BlockFrame;
 use crate::estimator::exact::{Exact, exact};
 use crate::importance::Copies;
 use crate::path::sections::WorkCounts;
-use crate::settings::{IntervalKind, Settings};
+use crate::settings::{IntervalKind, Settings, Switch};
 use crate::spectrum::Spectrum;
 use crate::stats::decisions::Decisions;
 use crate::stats::estimates::{Dimensions, Estimates, SensorEstimates, TermEstimates};
@@ -90,7 +90,8 @@ impl<'a, S: Spectrum> BidirectionalEstimator<'a, S> {
         let invalid_points = exact.iter_mut().map(Exact::drop_invalid).sum();
         let mut engine = Engine::new(context, &targets, watch)?;
         let is_certified = settings.interval == IntervalKind::Certified;
-        if !is_certified && context.max_bounces != Some(0) {
+        let may_copy = settings.importance != Switch::Off && context.max_bounces != Some(0);
+        if may_copy && !is_certified {
             engine.copies = Copies::new(context, &targets);
             prepared_rays += engine.copies.rays;
         }

@@ -20,6 +20,11 @@
 //! | light vertex joined to the target | `L_1` | `M q`, q by cosines over squared distance | `joins` |
 //! | photon crosses the disc or cell of area A | `A L_1 l`, l the density of landing there | 1, or `M` where `x_1` is narrow and eye paths hardly meet the light | `counters` |
 //!
+//! Where what leaves a surface matters more to the sensors, light subpaths go on from it in more
+//! copies, by a survey of the scene ([`Copies`]): their number `C(x)` is a function of the place
+//! alone, a power of two, 1 at lights. So `L_j` has the factor `C(x_(j + 1))`, which eye paths know
+//! as well; each copy carries as much less.
+//!
 //! A surface makes the next vertex with `min(pdf, f cos)`: roulette is part of the density
 //! ([`crate::bsdf::Bsdf::survival_pdf_sr`]). The first two of an eye path make it with `min(pdf, 2
 //! f cos)` (`plan::favour`, `light_weights`). A lamp is left with half of its share of the flux and
@@ -88,6 +93,8 @@ mod sums;
 mod supremum;
 mod unit;
 
+#[cfg(doc)]
+use crate::importance::Copies;
 pub(crate) use estimator::BidirectionalEstimator;
 pub(crate) use eye_path::Sink;
 pub(crate) use pixels::{MAX_PHOTONS, PictureLight, PixelSink, PixelTracer, PixelUnit};
