@@ -11,6 +11,8 @@ use quasilux_scene::{LengthUnit, Places, Scene, SensorShape};
 const MAX_HEIGHT_M: f64 = 60.0;
 /// The height of most rooms in m.
 const USUAL_HEIGHT_M: f64 = 3.0;
+/// Usual rooms have half to twice that height: the logarithm of 2.
+const USUAL_OFF: f64 = std::f64::consts::LN_2;
 /// Geometry is larger than this, in m: a model of a desk lamp is.
 const MIN_SIZE_M: f64 = 0.05;
 /// Positions that fill less than this share of each edge of the geometry may be of another unit.
@@ -153,7 +155,7 @@ pub(crate) fn cure_of_all(scene: &Scene, places: &Places) -> Option<String> {
             "units" => (1.0 / ratio, height_m * ratio),
             _ => (ratio, height_m),
         };
-        let off = libm::log(height_m / USUAL_HEIGHT_M).abs();
+        let off = off_usual(height_m, LengthUnit::Metre);
         (to != from && explained.by(factor)).then_some((off, key, from, to))
     });
     let (_, key, from, to) = fitting.min_by(|a, b| a.0.total_cmp(&b.0))?;
@@ -197,19 +199,8 @@ pub(crate) fn check(scene: &Scene, findings: &mut Findings<'_>) {
         );
         findings.add(Check::Units, place, message, cure);
     } else if edges.z > MAX_HEIGHT_M {
-        let unit = usual_unit(edges.z);
-        let both = geometry.share_of(&positions) > 0.5;
         let message = format!("{size}, more than any room");
-        let also = if both {
-            format!(", and position_units = \"{}\"", unit.name())
-        } else {
-            String::new()
-        };
-        let cure = format!(
-            "if its files are in {}, say units = \"{}\"{also} in [scene]",
-            in_words(unit),
-            unit.name()
-        );
+        let cure = cure_of_height(edges.z, geometry.share_of(&positions) > 0.5);
         findings.add(Check::Units, place, message, cure);
     } else if edges.length() < MIN_SIZE_M {
         let message = format!("{size}, less than any room");
@@ -236,14 +227,37 @@ fn smaller_unit_of_geometry(
         let height = (highest_m - scaled.low.z) / scaled.edges().z;
         (LAMP_HEIGHT[0]..=LAMP_HEIGHT[1]).contains(&height) && scaled.share_of(positions) == 1.0
     };
-    LengthUnit::ALL.into_iter().filter(|unit| *unit != LengthUnit::Metre).find(fits)
+    let fitting =
+        LengthUnit::ALL.into_iter().filter(|unit| *unit != LengthUnit::Metre && fits(unit));
+    nearest_to_usual(geometry.edges().z, fitting)
+}
+
+/// What to say of a geometry that is higher than any room; positions may be in the same unit.
+///
+/// Low rooms in centimetres are high ones in inches, and of rooms at random one in eight was
+/// both: the cure has all units that make a usual room, the nearest first.
+fn cure_of_height(height: f64, both: bool) -> String {
+    let usual = LengthUnit::ALL.into_iter().filter(|unit| off_usual(height, *unit) < USUAL_OFF);
+    let mut units: Vec<LengthUnit> = usual.collect();
+    units.sort_by(|a, b| off_usual(height, *a).total_cmp(&off_usual(height, *b)));
+    if units.is_empty() {
+        units.extend(nearest_to_usual(height, LengthUnit::ALL.into_iter()));
+    }
+    let words: Vec<&str> = units.iter().map(|unit| in_words(*unit)).collect();
+    let names: Vec<String> = units.iter().map(|unit| format!("\"{}\"", unit.name())).collect();
+    let name = names.join(" or ");
+    let also = if both { format!(", and position_units = {name}") } else { String::new() };
+    format!("if its files are in {}, say units = {name}{also} in [scene]", words.join(" or in "))
 }
 
 /// The unit in which a height is nearest to that of most rooms, by ratio.
-fn usual_unit(height: f64) -> LengthUnit {
-    let off = |unit: &LengthUnit| libm::log(height * unit.metres() / USUAL_HEIGHT_M).abs();
-    let nearest = LengthUnit::ALL.into_iter().min_by(|a, b| off(a).total_cmp(&off(b)));
-    nearest.unwrap_or_default()
+fn nearest_to_usual(height: f64, units: impl Iterator<Item = LengthUnit>) -> Option<LengthUnit> {
+    units.min_by(|a, b| off_usual(height, *a).total_cmp(&off_usual(height, *b)))
+}
+
+/// How far a height is from that of most rooms, as the logarithm of the ratio.
+fn off_usual(height: f64, unit: LengthUnit) -> f64 {
+    libm::log(height * unit.metres() / USUAL_HEIGHT_M).abs()
 }
 
 #[cfg(test)]
@@ -254,7 +268,8 @@ mod tests {
     fn heights_of_rooms_tell_their_unit() {
         let units = [(2700.0, "mm"), (300.0, "cm"), (118.0, "in"), (8500.0, "mm"), (98.4, "in")];
         for (height, name) in units {
-            assert_eq!(usual_unit(height).name(), name, "{height}");
+            let nearest = nearest_to_usual(height, LengthUnit::ALL.into_iter());
+            assert_eq!(nearest.map(LengthUnit::name), Some(name), "{height}");
         }
     }
 }
