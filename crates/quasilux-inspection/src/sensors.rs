@@ -22,9 +22,6 @@ const NEAR_DIRECTIONS: usize = 14;
 /// of a large grid that a survey of hundreds misses it, as 3 of 64 did in rooms at random.
 const MAX_POINTS: usize = 1 << 16;
 
-/// Directions in which nothing is met, of a place in a room with windows, at most.
-const ROOM_SHARE: f64 = 0.1;
-
 /// What is odd about the points of one sensor.
 #[derive(Default)]
 struct Odd {
@@ -59,8 +56,7 @@ pub(crate) fn check(survey: &Survey<'_>, findings: &mut Findings<'_>) {
             let eye = Vertex::facing(survey.before(&asked.point), asked.point.normal);
             odd.under_the_sky += usize::from(survey.sees_the_sky(&eye));
         } else {
-            let share = survey.probe.escaping_share(survey.before(&asked.point));
-            odd.is_in_a_room |= share < ROOM_SHARE;
+            odd.is_in_a_room |= survey.is_in_a_room(survey.before(&asked.point));
         }
     }
     for (number, odd) in odd.iter().enumerate() {

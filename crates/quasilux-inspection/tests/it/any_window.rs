@@ -1,6 +1,7 @@
 //! Wrong openings and skies of rooms at random with a window, and right ones.
 
-use crate::furnished::{Furnished, Patch, v};
+use crate::any_room::LAMPS;
+use crate::furnished::{Furnished, Lamp, Patch, v};
 use crate::random::Dice;
 use crate::room::{Face, body};
 use crate::spoil::{Spoil, fault, quiet, told};
@@ -62,6 +63,12 @@ fn openings_elsewhere_are_told() {
     told(300..310, Furnished::with_window, ELSEWHERE);
 }
 
+/// A lamp above the ceiling lights the house across the street, and that the room.
+#[test]
+fn lamps_in_wrong_places_are_told_by_day() {
+    told(700..708, Furnished::with_window, LAMPS);
+}
+
 /// A frame around the hole, blinds and shelves behind it, a pier in it.
 const MEANT: &[fn(&mut Furnished, &mut Dice)] = &[
     |room, dice| {
@@ -92,6 +99,17 @@ const MEANT: &[fn(&mut Furnished, &mut Dice)] = &[
         let low =
             v(left + dice.within(0.0, 0.6) * (right - left), -window.reveal_m + 0.001, bottom);
         room.faces.extend(body("pier", low, v(low.x + width, 0.02, top)));
+    },
+    |room, dice| {
+        // A lamp on the outer wall, for a square.
+        let outer = -room.window.expect("a window").reveal_m;
+        let at = v(dice.within(0.2, 0.8) * room.size.x, outer - dice.within(0.05, 0.3), 2.2);
+        room.lamps.push(Lamp { position: at, keys: String::new() });
+        let square = room.at(at + v(0.3, -1.0, -2.1));
+        room.sections += &format!(
+            "[[sensors]]\nname = \"square\"\nkind = \"points\"\npoints = [{square}]\n\
+             normals = [[0, 0, 1]]\n"
+        );
     },
     |room, dice| {
         // Without a pane.
