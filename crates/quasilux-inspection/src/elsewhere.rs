@@ -35,7 +35,8 @@ pub(crate) fn check(survey: &Survey<'_>, findings: &mut Findings<'_>) {
             names::position(low),
             names::position(high)
         );
-        let cure = units::cure_of_all(scene, findings.places).unwrap_or_else(|| {
+        let is_roofed = |at: DVec3| survey.probe.first(at, DVec3::Z).is_some();
+        let cure = units::cure_of_all(scene, findings.places, is_roofed).unwrap_or_else(|| {
             "expected both in one room: the geometry may be in another unit (units in [scene]), or \
              far from its origin in the program that it comes from"
                 .to_owned()
