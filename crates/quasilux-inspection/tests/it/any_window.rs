@@ -1,6 +1,6 @@
 //! Wrong openings and skies of rooms at random with a window, and right ones.
 
-use crate::any_room::LAMPS;
+use crate::any_room::{GRIDS, LAMPS, SIZES};
 use crate::furnished::{Furnished, Lamp, Patch, v};
 use crate::random::Dice;
 use crate::room::{Face, body};
@@ -67,6 +67,12 @@ fn openings_elsewhere_are_told() {
 #[test]
 fn lamps_in_wrong_places_are_told_by_day() {
     told(700..708, Furnished::with_window, LAMPS);
+}
+
+#[test]
+fn sensors_and_units_are_told_by_day() {
+    told(720..724, Furnished::with_window, GRIDS);
+    told(720..728, Furnished::with_window, SIZES);
 }
 
 /// A frame around the hole, blinds and shelves behind it, a pier in it.
