@@ -241,6 +241,47 @@ fn wrong_units_and_axes() {
     told(200..208, Furnished::new, HEIGHTS);
 }
 
+/// A camera at a place, looking at another.
+fn look(room: &mut Furnished, position: DVec3, target: DVec3) {
+    let [position, target] = [room.at(position), room.at(target)];
+    room.sections += &format!(
+        "[[cameras]]\nname = \"view\"\nposition = {position}\ntarget = {target}\n\
+         vertical_fov_deg = 60\nresolution = [60, 40]\n"
+    );
+}
+
+const VIEWS: &[Spoil] = &[
+    |room, dice| {
+        let at = v(0.5 * room.size.x, -dice.within(0.3, 9.0), 1.5);
+        look(room, at, 0.5 * room.size);
+        Some(fault("a camera behind a wall", &[Check::CameraOutside], "[[cameras]]"))
+    },
+    |room, dice| {
+        let at = v(0.5 * room.size.x, -dice.within(0.3, 9.0), 1.5);
+        look(room, at, at - DVec3::Y);
+        Some(fault("a camera that looks away", &[Check::CameraOutside], "[[cameras]]"))
+    },
+    |room, dice| {
+        let low = v(0.2, 0.2, room.size.z - dice.within(0.0, 0.05));
+        let high = v(dice.within(0.5, 1.4), 0.8, low.z);
+        room.faces.push(plate("panel", "panel", [low, high], true));
+        "[materials.panel]\nreflectance = 0\n[[lights]]\nkind = \"area\"\nmaterial = \"panel\"\n\
+         luminance_cd_m2 = 3000\n"
+            .clone_into(&mut room.sections);
+        Some(fault("a panel turned over", &[Check::EmitterLooksAway], "material = "))
+    },
+    |room, dice| {
+        let wall = dice.pick(&["north", "west", "east"]);
+        room.faces.retain(|face| face.object != wall);
+        Some(fault("a wall missing", &[Check::Hole], SCENE))
+    },
+];
+
+#[test]
+fn cameras_panels_and_walls() {
+    told(300..308, Furnished::new, VIEWS);
+}
+
 /// What is meant: light upward, points on floor and ceiling, on the wall, beside and under tables.
 const MEANT: &[fn(&mut Furnished, &mut Dice)] = &[
     |room, dice| {
@@ -266,12 +307,9 @@ const MEANT: &[fn(&mut Furnished, &mut Dice)] = &[
     |room, dice| room.lamps[0].position.z = room.size.z - dice.within(0.0, 0.001),
     |room, _| room.lamps.truncate(1),
     |room, _| {
-        let at = room.at(0.5 * room.size);
-        let target = room.at(v(0.1, 0.1, 0.5));
-        room.sections += &format!(
-            "[[cameras]]\nname = \"view\"\nposition = {at}\ntarget = {target}\n\
-             vertical_fov_deg = 60\nresolution = [60, 40]\n"
-        );
+        // A picture from the middle.
+        let [from, to] = [0.5 * room.size, v(0.1, 0.1, 0.5)];
+        look(room, from, to);
     },
 ];
 

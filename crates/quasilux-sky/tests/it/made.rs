@@ -169,8 +169,8 @@ impl Made {
         let Place { latitude_deg, longitude_deg, zone_h } = self.place;
         let [first, last] = [self.slots[0], self.slots[self.slots.len() - 1]];
         let head = format!(
-            "LOCATION,Nowhere,-,-,made up,000000,{latitude_deg:.2},{longitude_deg:.2},{zone_h:.1},9\n\
-             DESIGN CONDITIONS,0\nTYPICAL/EXTREME PERIODS,0\nGROUND TEMPERATURES,0\n\
+            "LOCATION,Nowhere,-,-,made up,000000,{latitude_deg:.2},{longitude_deg:.2},\
+             {zone_h:.1},9\nDESIGN CONDITIONS,0\nTYPICAL/EXTREME PERIODS,0\nGROUND TEMPERATURES,0\n\
              HOLIDAYS/DAYLIGHT SAVINGS,No,0,0,0\nCOMMENTS 1,made up\nCOMMENTS 2,\n\
              DATA PERIODS,1,{},Data,Sunday,{}/{},{}/{}",
             self.an_hour, first.month, first.day, last.month, last.day

@@ -250,9 +250,9 @@ fn clocks_of_other_places_are_told() {
 }
 
 /// Times of Greenwich under the clock of the place. An hour is not asked for: light of published
-/// years comes up to 0.7 h before or after the sun (Mannheim; eight others half an hour at most), by
-/// its weather and by what its hours mean. Of 49 made years 37 were told that are an hour off, and
-/// all but those beyond 50 degrees of latitude.
+/// years comes up to 0.7 h before or after the sun (Mannheim; seven others half an hour at most),
+/// by its weather and by what its hours mean. Of 49 made years 37 were told that are an hour off,
+/// and all but those beyond 50 degrees of latitude.
 #[test]
 fn light_off_the_clock_is_told() {
     let mut tried = 0;
