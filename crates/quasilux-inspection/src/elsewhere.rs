@@ -20,18 +20,23 @@ pub(crate) fn check(survey: &Survey<'_>, findings: &mut Findings<'_>) {
     let lamps: Vec<DVec3> = scene.lights.iter().filter_map(position_of).collect();
     let points = survey.asked.iter().map(|asked| asked.point.position);
     let elsewhere: Vec<DVec3> = points.filter(|&at| !is_there(at)).collect();
-    let all_lamps = !lamps.is_empty() && lamps.iter().all(|&at| !is_there(at));
-    // Most of them: a grid that is too long ends at the wrong wall.
-    if all_lamps && 2 * elsewhere.len() > survey.asked.len() {
+    let lamps_there = lamps.iter().filter(|&&at| is_there(at)).count();
+    // Most points: a grid that is too long ends at the wrong wall. Half of the lamps: what is too
+    // small lies below some of them, as 1 of 80 rooms at random whose metres were taken for feet.
+    let lamps_elsewhere = !lamps.is_empty() && 2 * lamps_there <= lamps.len();
+    if lamps_elsewhere && 2 * elsewhere.len() > survey.asked.len() {
         let message = format!(
-            "no lamp and {} of {} sensor points stand within the outline of the geometry, which is \
-             from {} to {}",
+            "{} of {} and {} of {} sensor points stand within the outline of the geometry, which \
+             is from {} to {}",
+            lamps_there,
+            names::count(lamps.len(), "lamp", "lamps"),
             survey.asked.len() - elsewhere.len(),
             survey.asked.len(),
             names::position(low),
             names::position(high)
         );
-        let cure = units::cure_of_all(scene, findings.places).unwrap_or_else(|| {
+        let is_roofed = |at: DVec3| survey.probe.first(at, DVec3::Z).is_some();
+        let cure = units::cure_of_all(scene, findings.places, is_roofed).unwrap_or_else(|| {
             "expected both in one room: the geometry may be in another unit (units in [scene]), or \
              far from its origin in the program that it comes from"
                 .to_owned()

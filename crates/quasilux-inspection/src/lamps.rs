@@ -6,6 +6,7 @@
 
 use crate::finding::{Check, Findings, MAX_LISTED};
 use crate::names;
+use crate::probe::sphere_direction;
 use crate::survey::{Survey, Vertex, emitted_direction, position_of};
 use crate::units::{self, Thing};
 use glam::DVec3;
@@ -25,6 +26,8 @@ const IN_SURFACE_M: f64 = 1e-3;
 const EMITTED: u32 = 64;
 /// Less than this share of light behind a ceiling is taken for the table's own upward light.
 const LOST_SHARE: f64 = 0.2;
+/// A lamp that is meant to shine on what people look at from inside gives it more than the rest.
+const MOST_LOST: f64 = 0.5;
 
 /// A way to a place where a lamp would shine on sensors.
 struct Move {
@@ -45,6 +48,7 @@ pub(crate) fn check(survey: &Survey<'_>, findings: &mut Findings<'_>) {
         }
         if survey.reaches[index] {
             in_surface(survey, index, position, findings);
+            by_a_detour(survey, index, position, findings);
             continue;
         }
         if findings.found.len() - before >= MAX_LISTED {
@@ -84,17 +88,15 @@ pub(crate) fn check(survey: &Survey<'_>, findings: &mut Findings<'_>) {
 /// A lamp whose light arrives, and is in a surface behind which some of it is lost.
 fn in_surface(survey: &Survey<'_>, index: usize, at: DVec3, findings: &mut Findings<'_>) {
     let scene = survey.probe.scene;
-    let Light::Luminaire(light) = &scene.lights[index] else { return };
+    if !matches!(scene.lights[index], Light::Luminaire(_)) {
+        return;
+    }
     let near = |direction: DVec3| {
         let met = survey.probe.first(at - direction * IN_SURFACE_M, direction);
         met.filter(|met| met.distance_m <= 2.0 * IN_SURFACE_M)
     };
     let Some(surface) = AXES.into_iter().find_map(near) else { return };
-    let lost = (0..EMITTED).filter_map(|i| emitted_direction(light, i)).filter(|&direction| {
-        let met = survey.probe.first(at, direction);
-        met.is_none_or(|met| !survey.meet(&[Vertex::on(&met)], &survey.eyes))
-    });
-    let lost = lost.count() as f64 / f64::from(EMITTED);
+    let lost = lost_share(survey, &scene.lights[index], at, &survey.eyes);
     if survey.is_open || lost < LOST_SHARE {
         return;
     }
@@ -109,14 +111,51 @@ fn in_surface(survey: &Survey<'_>, index: usize, at: DVec3, findings: &mut Findi
     findings.add(Check::LampInSurface, findings.places.lights[index], message, cure).at(at);
 }
 
-/// The shortest way through a surface, along an axis or where the lamp aims, to a place from which
-/// it would shine on a sensor or on what one sees.
+/// A lamp above the ceiling of a room by day: some of its light comes back through a window, from a
+/// house across the street.
+fn by_a_detour(survey: &Survey<'_>, index: usize, at: DVec3, findings: &mut Findings<'_>) {
+    let scene = survey.probe.scene;
+    let lamp = &scene.lights[index];
+    if survey.is_open || survey.is_in_a_room(at) || survey.shines(lamp, &survey.receivers) {
+        return;
+    }
+    let lost = lost_share(survey, lamp, at, &survey.receivers);
+    let Some(way) = shortest_move(survey, lamp, at).filter(|_| lost > MOST_LOST) else { return };
+    let what = names::light(findings.places, &scene.lights, index);
+    let message = format!(
+        "{what} at {} hangs outside the geometry, and {:.0} % of its light lands where no sensor \
+         or camera sees it",
+        names::position(at),
+        100.0 * lost
+    );
+    let cure = cure_by_move(&way, scene);
+    findings.add(Check::LampOutside, findings.places.lights[index], message, cure).at(at);
+}
+
+/// The share of a lamp's light that lands where none of these see it, or nowhere.
+fn lost_share(survey: &Survey<'_>, lamp: &Light, at: DVec3, eyes: &[Vertex]) -> f64 {
+    let direction = |i: u32| match lamp {
+        Light::Luminaire(light) => emitted_direction(light, i),
+        Light::Point(_) | Light::Area(_) => Some(sphere_direction(i, EMITTED)),
+    };
+    let lost = (0..EMITTED).filter_map(direction).filter(|&direction| {
+        let met = survey.probe.first(at, direction);
+        met.is_none_or(|met| !survey.meet(&[Vertex::on(&met)], eyes))
+    });
+    lost.count() as f64 / f64::from(EMITTED)
+}
+
+/// The shortest way through a surface, along an axis, square to a surface that is met along one, or
+/// where the lamp aims, to a place from which it would shine on a sensor or on what one sees.
 fn shortest_move(survey: &Survey<'_>, lamp: &Light, from: DVec3) -> Option<Move> {
     let aim = match lamp {
         Light::Luminaire(light) => Some(light.world_from_luminaire * DVec3::NEG_Z),
         Light::Point(_) | Light::Area(_) => None,
     };
-    let ways = AXES.into_iter().chain(aim).filter_map(|direction| through(survey, from, direction));
+    // Walls may stand askew.
+    let square = |axis| survey.probe.first(from, axis).map(|met| -met.normal);
+    let directions = AXES.into_iter().chain(AXES.into_iter().filter_map(square)).chain(aim);
+    let ways = directions.filter_map(|direction| through(survey, from, direction));
     ways.min_by(|a, b| a.length_m.total_cmp(&b.length_m))
 }
 

@@ -14,7 +14,8 @@ const PLACES: u32 = 4096;
 const DIRECTIONS: u32 = 64;
 /// A surface this near behind an opening closes it, in m; blinds hang further away.
 const CLOSED_M: f64 = 0.05;
-/// An opening may be so much larger than the glass in it: frames and piers.
+/// An opening may be so much larger than the glass in it: frames and piers. So much of one that has
+/// no room behind it is neither.
 const MAX_CLOSED: f64 = 0.5;
 
 /// Why no light comes in at a place.
@@ -39,11 +40,12 @@ pub(crate) fn check(survey: &Survey<'_>, findings: &mut Findings<'_>) {
         let places = places_of(opening, along);
         let closed: Vec<(DVec3, Closed)> =
             places.filter_map(|at| Some((at, closed(survey, opening, at)?))).collect();
-        let share = closed.len() as f64 / f64::from(along * along);
-        if share < MAX_CLOSED {
+        let share_of = |count: usize| count as f64 / f64::from(along * along);
+        let share = share_of(closed.len());
+        let count = |why: Closed| closed.iter().filter(|(_, it)| *it == why).count();
+        if share <= MAX_CLOSED && share_of(count(Closed::InTheOpen)) < MAX_CLOSED {
             continue;
         }
-        let count = |why: Closed| closed.iter().filter(|(_, it)| *it == why).count();
         let reasons = [
             (Closed::BySurface, "a solid surface is right behind it"),
             (Closed::InTheOpen, "there is no room behind it"),

@@ -33,6 +33,8 @@ const SKY_DIRECTIONS: u32 = 32;
 /// A place from which so many directions meet nothing is not in a room: behind a large flat surface
 /// it is a half, in front of a missing wall less than a third.
 const OPEN_SHARE: f64 = 0.35;
+/// From a place in a room with windows so many do, at most.
+const ROOM_SHARE: f64 = 0.1;
 
 /// A place that light passes, with the side that it comes from.
 #[derive(Clone, Copy, Debug)]
@@ -134,7 +136,7 @@ impl<'a> Survey<'a> {
     }
 
     /// Whether a lamp shines straight on one of the vertices.
-    fn shines(&self, lamp: &Light, vertices: &[Vertex]) -> bool {
+    pub(crate) fn shines(&self, lamp: &Light, vertices: &[Vertex]) -> bool {
         let stride = vertices.len().div_ceil(MAX_PAIRS).max(1);
         let shines_on = |vertex: &Vertex| {
             let place = shining_place(lamp, vertex.position);
@@ -200,13 +202,20 @@ impl<'a> Survey<'a> {
         self.probe.escaping_share(at) > OPEN_SHARE
     }
 
+    /// Whether nearly all directions from here meet something.
+    pub(crate) fn is_in_a_room(&self, at: DVec3) -> bool {
+        self.probe.escaping_share(at) < ROOM_SHARE
+    }
+
     /// Whether a lamp at this place would shine straight on a sensor point or on what it sees.
     pub(crate) fn would_light(&self, position: DVec3) -> bool {
         let place = Vertex::in_air(position);
-        let first_two = self.asked_vertices.iter().flat_map(|vertices| vertices.iter().take(2));
+        // Points and what they see alike: of every other vertex, all would be points.
         let stride = (2 * self.asked_vertices.len() / 256).max(1);
+        let some = self.asked_vertices.iter().step_by(stride);
+        let mut first_two = some.flat_map(|vertices| vertices.iter().take(2));
         let mut cameras = self.camera_vertices.iter().flatten();
-        first_two.step_by(stride).any(|vertex| self.exchange(&place, vertex))
+        first_two.any(|vertex| self.exchange(&place, vertex))
             || cameras.any(|vertex| self.exchange(&place, vertex))
     }
 }

@@ -11,6 +11,8 @@ use quasilux_scene::{LengthUnit, Places, Scene, SensorShape};
 const MAX_HEIGHT_M: f64 = 60.0;
 /// The height of most rooms in m.
 const USUAL_HEIGHT_M: f64 = 3.0;
+/// Usual rooms have half to twice that height: the logarithm of 2.
+const USUAL_OFF: f64 = std::f64::consts::LN_2;
 /// Geometry is larger than this, in m: a model of a desk lamp is.
 const MIN_SIZE_M: f64 = 0.05;
 /// Positions that fill less than this share of each edge of the geometry may be of another unit.
@@ -88,6 +90,7 @@ pub(crate) enum Thing {
 }
 
 /// Positions that another unit may put inside the geometry.
+#[derive(Clone, Copy)]
 struct Explained<'a> {
     geometry: Extent,
     positions: &'a [DVec3],
@@ -135,35 +138,64 @@ pub(crate) fn cure(
 }
 
 /// The unit of positions, or of geometry files, with which all lamps and points stand inside, the
-/// highest lamp in the upper half of a room; where several do, the one whose room is nearest to
-/// usual ones. `None` where no other unit explains it.
-pub(crate) fn cure_of_all(scene: &Scene, places: &Places) -> Option<String> {
+/// highest lamp in the upper half of a room, or all lamps below something (`is_roofed`), where a
+/// house beside it is higher; where several do, the one whose room is nearest to usual ones. `None`
+/// where no other unit explains it.
+pub(crate) fn cure_of_all(
+    scene: &Scene,
+    places: &Places,
+    is_roofed: impl Fn(DVec3) -> bool,
+) -> Option<String> {
     let geometry = geometry(scene)?;
+    let lamps: Vec<DVec3> = scene.lights.iter().filter_map(position_of).collect();
     let positions = positions(scene);
-    let heights_m = scene.lights.iter().filter_map(position_of).map(|at| at.z);
-    let lamp_height_m = Some(heights_m.reduce(f64::max)?);
+    let lamp_height_m = Some(lamps.iter().map(|at| at.z).reduce(f64::max)?);
     let height_m = geometry.edges().z;
     let explained = Explained { geometry, positions: &positions, lamp_height_m };
+    let inside = Explained { lamp_height_m: None, ..explained };
     let keys = [("position_units", places.position_unit), ("units", places.unit)];
-    let candidates = keys.into_iter().flat_map(|it| LengthUnit::ALL.map(|to| (it, to)));
-    let fitting = candidates.filter_map(|((key, from), to)| {
-        let ratio = to.metres() / from.metres();
-        // Larger geometry is as if positions were smaller.
-        let (factor, height_m) = match key {
-            "units" => (1.0 / ratio, height_m * ratio),
-            _ => (ratio, height_m),
-        };
-        let off = libm::log(height_m / USUAL_HEIGHT_M).abs();
-        (to != from && explained.by(factor)).then_some((off, key, from, to))
+    let readings = keys.into_iter().flat_map(|(key, from)| {
+        let others = LengthUnit::ALL.into_iter().filter(move |to| *to != from);
+        others.map(move |to| Reading::new(key, from, to))
     });
-    let (_, key, from, to) = fitting.min_by(|a, b| a.0.total_cmp(&b.0))?;
+    let readings: Vec<Reading> = readings.collect();
+    let off = |reading: &&Reading| off_usual(height_m * reading.growth, LengthUnit::Metre);
+    let hung = readings.iter().filter(|reading| explained.by(reading.factor));
+    let roofed = readings.iter().filter(|reading| {
+        let Reading { factor, .. } = reading;
+        inside.by(*factor) && lamps.iter().all(|lamp| is_roofed(*lamp * *factor))
+    });
+    let Reading { key, from, to, .. } = hung
+        .min_by(|a, b| off(a).total_cmp(&off(b)))
+        // Whatever shrinks positions enough puts them around the origin.
+        .or_else(|| roofed.max_by(|a, b| a.factor.total_cmp(&b.factor)))?;
     Some(format!(
         "all of them would be inside with {} in place of {}: if it is meant so, say {key} = \"{}\" \
          in [scene]",
-        in_words(to),
-        in_words(from),
+        in_words(*to),
+        in_words(*from),
         to.name()
     ))
+}
+
+/// Another unit of positions, or of geometry files.
+struct Reading {
+    key: &'static str,
+    from: LengthUnit,
+    to: LengthUnit,
+    /// How much further from the origin positions would be, for a geometry that stays.
+    factor: f64,
+    /// How much larger the geometry would be.
+    growth: f64,
+}
+
+impl Reading {
+    fn new(key: &'static str, from: LengthUnit, to: LengthUnit) -> Self {
+        let ratio = to.metres() / from.metres();
+        // Larger geometry is as if positions were smaller.
+        let [factor, growth] = if key == "units" { [1.0 / ratio, ratio] } else { [ratio, 1.0] };
+        Self { key, from, to, factor, growth }
+    }
 }
 
 /// A unit in running text.
@@ -197,19 +229,11 @@ pub(crate) fn check(scene: &Scene, findings: &mut Findings<'_>) {
         );
         findings.add(Check::Units, place, message, cure);
     } else if edges.z > MAX_HEIGHT_M {
-        let unit = usual_unit(edges.z);
-        let both = geometry.share_of(&positions) > 0.5;
         let message = format!("{size}, more than any room");
-        let also = if both {
-            format!(", and position_units = \"{}\"", unit.name())
-        } else {
-            String::new()
+        let cure = match unit_around(&geometry, &positions) {
+            Some(unit) => cure_of_units(&[unit], false),
+            None => cure_of_height(scene, &geometry, &positions),
         };
-        let cure = format!(
-            "if its files are in {}, say units = \"{}\"{also} in [scene]",
-            in_words(unit),
-            unit.name()
-        );
         findings.add(Check::Units, place, message, cure);
     } else if edges.length() < MIN_SIZE_M {
         let message = format!("{size}, less than any room");
@@ -236,14 +260,60 @@ fn smaller_unit_of_geometry(
         let height = (highest_m - scaled.low.z) / scaled.edges().z;
         (LAMP_HEIGHT[0]..=LAMP_HEIGHT[1]).contains(&height) && scaled.share_of(positions) == 1.0
     };
-    LengthUnit::ALL.into_iter().filter(|unit| *unit != LengthUnit::Metre).find(fits)
+    let fitting =
+        LengthUnit::ALL.into_iter().filter(|unit| *unit != LengthUnit::Metre && fits(unit));
+    nearest_to_usual(geometry.edges().z, fitting)
+}
+
+/// The unit in which a geometry that is higher than any room is the smallest one around all
+/// positions as they are. Feet would be around those in the middle of a building.
+fn unit_around(geometry: &Extent, positions: &[DVec3]) -> Option<LengthUnit> {
+    let units = [LengthUnit::Millimetre, LengthUnit::Centimetre, LengthUnit::Inch];
+    let is_around = |unit: &LengthUnit| {
+        let scaled = geometry.scaled(unit.metres());
+        scaled.edges().z <= MAX_HEIGHT_M && scaled.share_of(positions) == 1.0
+    };
+    units.into_iter().find(is_around).filter(|_| !positions.is_empty())
+}
+
+/// What to say of a geometry that is higher than any room; positions may be in the same unit.
+///
+/// Low rooms in centimetres are high ones in inches, and of rooms at random one in eight was
+/// both: the cure has all units that make a usual room, the nearest first. Beside a higher house
+/// lamps tell how high the room is: twice as far above the lowest point as they hang, at most.
+fn cure_of_height(scene: &Scene, geometry: &Extent, positions: &[DVec3]) -> String {
+    let both = geometry.share_of(positions) > 0.5;
+    let highest_m = scene.lights.iter().filter_map(position_of).map(|at| at.z).reduce(f64::max);
+    let lowest_m = positions.iter().map(|at| at.z).reduce(f64::min);
+    let hangs = highest_m.zip(lowest_m).map(|(high, low)| 2.0 * (high - low));
+    let hangs = hangs.filter(|hangs| both && *hangs > 0.0).unwrap_or(f64::INFINITY);
+    let height = geometry.edges().z.min(hangs);
+    let usual = LengthUnit::ALL.into_iter().filter(|unit| off_usual(height, *unit) < USUAL_OFF);
+    let mut units: Vec<LengthUnit> = usual.collect();
+    units.sort_by(|a, b| off_usual(height, *a).total_cmp(&off_usual(height, *b)));
+    if units.is_empty() {
+        units.extend(nearest_to_usual(height, LengthUnit::ALL.into_iter()));
+    }
+    cure_of_units(&units, both)
+}
+
+/// What to say where geometry files are in one of these units, and perhaps positions.
+fn cure_of_units(units: &[LengthUnit], both: bool) -> String {
+    let words: Vec<&str> = units.iter().map(|unit| in_words(*unit)).collect();
+    let names: Vec<String> = units.iter().map(|unit| format!("\"{}\"", unit.name())).collect();
+    let name = names.join(" or ");
+    let also = if both { format!(", and position_units = {name}") } else { String::new() };
+    format!("if its files are in {}, say units = {name}{also} in [scene]", words.join(" or in "))
 }
 
 /// The unit in which a height is nearest to that of most rooms, by ratio.
-fn usual_unit(height: f64) -> LengthUnit {
-    let off = |unit: &LengthUnit| libm::log(height * unit.metres() / USUAL_HEIGHT_M).abs();
-    let nearest = LengthUnit::ALL.into_iter().min_by(|a, b| off(a).total_cmp(&off(b)));
-    nearest.unwrap_or_default()
+fn nearest_to_usual(height: f64, units: impl Iterator<Item = LengthUnit>) -> Option<LengthUnit> {
+    units.min_by(|a, b| off_usual(height, *a).total_cmp(&off_usual(height, *b)))
+}
+
+/// How far a height is from that of most rooms, as the logarithm of the ratio.
+fn off_usual(height: f64, unit: LengthUnit) -> f64 {
+    libm::log(height * unit.metres() / USUAL_HEIGHT_M).abs()
 }
 
 #[cfg(test)]
@@ -254,7 +324,8 @@ mod tests {
     fn heights_of_rooms_tell_their_unit() {
         let units = [(2700.0, "mm"), (300.0, "cm"), (118.0, "in"), (8500.0, "mm"), (98.4, "in")];
         for (height, name) in units {
-            assert_eq!(usual_unit(height).name(), name, "{height}");
+            let nearest = nearest_to_usual(height, LengthUnit::ALL.into_iter());
+            assert_eq!(nearest.map(LengthUnit::name), Some(name), "{height}");
         }
     }
 }

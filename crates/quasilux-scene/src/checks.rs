@@ -40,7 +40,7 @@ pub(crate) fn places_in_walls(
     let mut walls = Walls {
         scene,
         hair_m: HAIR * (high - low).length(),
-        solids: opaque.map(|solid| (solid, None)).collect(),
+        bodies: opaque.map(|solid| Body { solid, is_lit: None, is_room: None }).collect(),
         tests_left: MAX_TRIANGLE_TESTS,
     };
     for entry in &project.sensors {
@@ -113,16 +113,23 @@ impl std::fmt::Display for Wall {
 struct Walls<'a> {
     scene: &'a Scene,
     hair_m: f64,
-    /// Each solid, and whether it holds a light once that has been asked.
-    solids: Vec<(Solid, Option<bool>)>,
+    bodies: Vec<Body>,
     tests_left: u64,
+}
+
+/// A solid, with what has been asked of it.
+struct Body {
+    solid: Solid,
+    /// Whether it holds a light.
+    is_lit: Option<bool>,
+    is_room: Option<bool>,
 }
 
 impl Walls<'_> {
     /// The name of a wall that the point is inside of.
     fn around(&mut self, point: &SensorPoint) -> Option<Wall> {
         let position = point.position + point.normal * self.hair_m;
-        for (solid, is_lit) in &mut self.solids {
+        for Body { solid, is_lit, is_room } in &mut self.bodies {
             if *is_lit == Some(true) || !solid.may_contain(position) {
                 continue;
             }
@@ -140,11 +147,17 @@ impl Walls<'_> {
             if *is_lit == Some(false) {
                 let object = mesh.object_of[solid.triangles[0] as usize];
                 let object = Arc::clone(&mesh.objects[object as usize]);
-                return Some(Wall { object, is_room: solid.edges_m().cmpge(ROOM_M).all() });
+                let is_room = *is_room.get_or_insert_with(|| is_room_like(mesh, solid));
+                return Some(Wall { object, is_room });
             }
         }
         None
     }
+}
+
+/// By its width and not by the box around it: a wardrobe that stands askew has a wide one.
+fn is_room_like(mesh: &Mesh, solid: &Solid) -> bool {
+    solid.edges_m().cmpge(ROOM_M).all() && solid.width_m(mesh) >= ROOM_M.x
 }
 
 /// Whether a light is inside the solid, on its surface or part of it; `None` when the tests are

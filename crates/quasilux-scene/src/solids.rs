@@ -125,6 +125,23 @@ impl Solid {
         self.high - self.low
     }
 
+    /// Its smallest extent along level directions, in m, some 1 % of its length too large at most.
+    #[must_use]
+    pub fn width_m(&self, mesh: &Mesh) -> f64 {
+        const DIRECTIONS: u32 = 180;
+        let extent_m = |i: u32| {
+            let (sine, cosine) =
+                libm::sincos(std::f64::consts::PI * f64::from(i) / f64::from(DIRECTIONS));
+            let corners = self.triangles.iter().flat_map(|&triangle| mesh.corners(triangle));
+            let along = corners.map(|at| cosine * at.x + sine * at.y);
+            let [low, high] = along.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], at| {
+                [low.min(at), high.max(at)]
+            });
+            high - low
+        };
+        (0..DIRECTIONS).map(extent_m).fold(f64::INFINITY, f64::min)
+    }
+
     /// The diagonal of that box, in m.
     #[must_use]
     pub fn size_m(&self) -> f64 {

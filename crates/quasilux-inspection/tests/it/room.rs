@@ -190,6 +190,13 @@ impl Case {
         inspected("room.toml", self.project.as_bytes(), &self.files())
     }
 
+    /// What its loader warns of.
+    pub(crate) fn warnings(&self) -> Vec<String> {
+        let loaded = load("room.toml", self.project.as_bytes(), &self.files());
+        let loaded = loaded.unwrap_or_else(|error| panic!("{error}"));
+        loaded.warnings.into_iter().map(|warning| warning.message).collect()
+    }
+
     /// What is said after a run that found no light at the first point of these sensors.
     pub(crate) fn darkness(&self, sensors: &[usize]) -> Vec<Finding> {
         let loaded = load("room.toml", self.project.as_bytes(), &self.files()).unwrap();

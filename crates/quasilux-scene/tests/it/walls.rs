@@ -185,3 +185,36 @@ fn rooms_without_light_are_told_and_not_refused() {
     let loaded = load_text(&above, &files).unwrap();
     assert!(warnings_of(&loaded)[0].contains("closed object \"room\""), "{:?}", loaded.warnings);
 }
+
+/// A dark body is furniture or a room by its width and height, however it is turned.
+#[test]
+fn wardrobes_that_stand_askew_are_no_rooms() {
+    let turned = |edges: [f64; 3], turn_deg: f64| {
+        let [x, y, z] = edges.map(|edge| 0.5 * edge);
+        let (sine, cosine) = libm::sincos(turn_deg.to_radians());
+        let mut obj = String::new();
+        for line in box_obj("body", [-x, -y, -z], [x, y, z], 9).lines() {
+            let numbers: Vec<f64> = line.split(' ').filter_map(|it| it.parse().ok()).collect();
+            let _ = match numbers[..] {
+                [x, y, z] if line.starts_with("v ") => {
+                    let [x, y] = [x * cosine - y * sine, x * sine + y * cosine];
+                    writeln!(obj, "v {} {y} {z}", x + 20.0)
+                }
+                _ => writeln!(obj, "{line}"),
+            };
+        }
+        let room = "mtllib room.mtl\n".to_owned() + &box_obj("room", [-1.0; 3], [3.0; 3], 1);
+        MapFiles::room().with("room.obj", room + &obj)
+    };
+    for step in 0..200 {
+        let part = |ratio: f64| (f64::from(step) * ratio).fract();
+        let edges = [0.3 + 3.2 * part(0.618), 1.55 + 2.0 * part(0.414), 1.2 + 1.8 * part(0.732)];
+        let is_room = edges[0].min(edges[1]) >= 1.5 && edges[2] >= 1.8;
+        if (edges[0] - 1.5).abs() < 0.05 {
+            continue;
+        }
+        let files = turned(edges, 360.0 * part(0.303));
+        let read = load_text(&probe("[0.5, 0.5, 0.5], [20, 0, 0]"), &files);
+        assert_eq!(read.is_ok(), is_room, "{edges:?}");
+    }
+}

@@ -1,6 +1,7 @@
 //! EnergyPlus weather: "Auxiliary programs" (EnergyPlus documentation), EPW data dictionary.
 
 use super::interval::usual_interval_s;
+use super::minutes::{LineTime, ends_h};
 use super::possible::Possible;
 use super::row::{Row, date, number};
 use super::{
@@ -12,7 +13,8 @@ use quasilux_text::{ParseError, Position, Token, Warnings, quoted};
 
 /// Lines before the data.
 const HEADER: usize = 8;
-/// Fields of a line of data.
+/// Fields of a line of data; older files have fewer.
+const FIELDS: usize = 35;
 const MONTH: usize = 1;
 const DAY: usize = 2;
 const HOUR: usize = 3;
@@ -53,10 +55,10 @@ pub(super) fn read(
     let data: Vec<&Row<'_>> = data.collect();
     let lines = data.iter().map(|row| Line::new(row, warnings));
     let mut lines = lines.collect::<Result<Vec<Line>, ParseError>>()?;
-    let minutes_tell = minutes_tell(&lines, declared);
-    for Line { hour_of_day, minute, hour } in &mut lines {
-        let end_h = if minutes_tell { *hour_of_day - 1.0 + *minute / 60.0 } else { *hour_of_day };
-        hour.seconds = HOUR_S * end_h;
+    let times: Vec<LineTime> = lines.iter().map(|line| line.time).collect();
+    let ends_h = ends_h(&times, declared);
+    for (line, end_h) in lines.iter_mut().zip(ends_h) {
+        line.hour.seconds = HOUR_S * end_h;
     }
     let mut hours: Vec<WeatherHour> = lines.into_iter().map(|line| line.hour).collect();
     let declared_s = HOUR_S / declared;
@@ -82,16 +84,6 @@ pub(super) fn read(
         tell_powers_from_energies(&mut weather, declared_at, warnings);
     }
     Ok(PlacedWeather { weather, places })
-}
-
-/// Whether the minute of a line says when its interval ends. Of whole hours it is always 0 or
-/// always 60, and means nothing.
-fn minutes_tell(lines: &[Line], declared: f64) -> bool {
-    match lines {
-        [] => false,
-        [_] => declared > 1.0,
-        [first, others @ ..] => others.iter().any(|line| line.minute % 60.0 != first.minute % 60.0),
-    }
 }
 
 /// The format says energies in Wh/m2, and EnergyPlus takes powers in W/m2; of hours both are the
@@ -171,10 +163,7 @@ fn data_period(rows: &[Row<'_>]) -> Result<Declared, ParseError> {
 
 /// A line of data.
 struct Line {
-    /// 1 to 24.
-    hour_of_day: f64,
-    /// 0 to 60.
-    minute: f64,
+    time: LineTime,
     /// Of which the time is not known yet.
     hour: WeatherHour,
 }
@@ -182,6 +171,11 @@ struct Line {
 impl Line {
     fn new(row: &Row<'_>, warnings: &mut Warnings<WeatherWarning>) -> Result<Self, ParseError> {
         let fields = row.by_commas();
+        if let Some(field) = fields.iter().skip(FIELDS).find(|field| !field.text.is_empty()) {
+            let found = format!("a field more, {}", quoted(field.text));
+            let expected = format!("{FIELDS} fields (decimal commas make two of one)");
+            return Err(ParseError::new(field.at, found, expected));
+        }
         let field = |n, what: &str| row.field(&fields, n, what);
         let [month, day] = date(&field(MONTH, "a month")?, &field(DAY, "a day")?)?;
         let what = "the hour, 1 to 24";
@@ -201,7 +195,8 @@ impl Line {
         let dew_point = number(&field(DEW_POINT, what)?, -90.0..=100.0, what)?;
         let dew_point_c = Some(dew_point).filter(|celsius| *celsius < MISSING_TEMPERATURE);
         let hour = WeatherHour { month, day, seconds: 0.0, light, dew_point_c };
-        Ok(Self { hour_of_day, minute, hour })
+        let time = LineTime { date: [month, day], hour_of_day, minute };
+        Ok(Self { time, hour })
     }
 }
 

@@ -6,8 +6,12 @@ use std::collections::BTreeMap;
 /// Two middles that are nearer than this, in s, are of the same interval: decimals of hours are
 /// rounded in files.
 const SAME_S: f64 = 1.0;
-/// The part that steps between hours of two decimals are off.
+/// What steps between hours of two decimals are off at most, in s: 36, and what sums of them lose.
+const ROUNDED_S: f64 = 36.5;
+/// The same as a part of steps that are of no usual part of an hour.
 const ROUNDED: f64 = 0.02;
+/// Into how many whole minutes hours are divided.
+const PARTS: [u32; 12] = [1, 2, 3, 4, 5, 6, 10, 12, 15, 20, 30, 60];
 
 /// How long intervals are in s by the times at which one ends or is in its middle: by the step from
 /// one to the next that most of them have, if it is a part of an hour. `None` where no two are of
@@ -22,17 +26,25 @@ pub(super) fn usual_interval_s(times: impl Iterator<Item = TimeOfYear> + Clone) 
         let step_s = next.seconds - time.seconds;
         if (time.month, time.day) == (next.month, next.day) && step_s > SAME_S {
             all += 1;
-            if step_s < HOUR_S + SAME_S {
-                *steps.entry(step_s.round() as u32).or_default() += 1;
+            if let Some(an_hour) = steps_an_hour(step_s) {
+                *steps.entry(an_hour).or_default() += 1;
             }
         }
     }
     let usual = steps.into_iter().max_by_key(|(_, count)| *count);
-    let exact_s = |step: u32| HOUR_S / (HOUR_S / f64::from(step)).round();
-    let usual = usual.filter(|(step, count)| {
-        2 * count >= all && (exact_s(*step) / f64::from(*step) - 1.0).abs() < ROUNDED
-    });
-    (all > 0).then(|| usual.map_or(HOUR_S, |(step, _)| exact_s(step)))
+    let usual = usual.filter(|(_, count)| 2 * count >= all);
+    (all > 0).then(|| usual.map_or(HOUR_S, |(an_hour, _)| HOUR_S / f64::from(an_hour)))
+}
+
+/// How many such steps make an hour, whose times may be rounded.
+fn steps_an_hour(step_s: f64) -> Option<u32> {
+    let off_s = |an_hour: u32| (HOUR_S / f64::from(an_hour) - step_s).abs();
+    let nearest = PARTS.into_iter().min_by(|&a, &b| off_s(a).total_cmp(&off_s(b)))?;
+    if off_s(nearest) <= ROUNDED_S {
+        return Some(nearest);
+    }
+    let whole = (HOUR_S / step_s).round() as u32;
+    (whole > 0 && off_s(whole) < ROUNDED * step_s).then_some(whole)
 }
 
 impl Weather {

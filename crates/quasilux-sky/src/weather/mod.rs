@@ -9,6 +9,7 @@ mod epw;
 mod interval;
 mod light;
 mod light_at;
+mod minutes;
 mod odd;
 mod possible;
 mod row;
