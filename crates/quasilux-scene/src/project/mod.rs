@@ -148,9 +148,8 @@ impl Project {
         let sensors = sensors::read(&root, &mut names)?;
         let cameras = cameras::read(&root, &mut names)?;
         if sensors.is_empty() && cameras.is_empty() {
-            return Err(
-                root.error(format!("no sensors and no cameras; expected {EXPECTED_SENSORS}"))
-            );
+            let message = format!("no sensors and no cameras; expected {EXPECTED_SENSORS}");
+            return Err(root.error(message));
         }
         Ok(Self {
             file: file.to_owned(),
