@@ -5,6 +5,7 @@ use super::cut::Plane;
 use super::edges::{Edge, edges};
 use super::layout::Layout;
 use super::model::PlanPicture;
+use super::sight::Sight;
 use super::symbols::corners_of;
 use glam::DVec3;
 use std::collections::BTreeMap;
@@ -62,6 +63,14 @@ impl<'a> Contents<'a> {
         let normal = self.layout.views[view].projection.toward();
         let at = if view == 0 { DVec3::Z * self.cut_m } else { self.geometry.centre_m() };
         Plane { normal, offset_m: normal.dot(at) }
+    }
+}
+
+impl Contents<'_> {
+    /// What of things in space a view shows.
+    pub(crate) fn sight(&self, view: usize) -> Sight {
+        let hair_m = 1e-6 * self.geometry.size_m().max_element();
+        Sight { cut: (view > 0).then(|| self.plane(view)), hair_m }
     }
 }
 

@@ -18,6 +18,24 @@ impl Plane {
         self.normal.dot(point_m) - self.offset_m
     }
 
+    /// Whether a point is not above the plane, within a hair of `hair_m`.
+    pub(crate) fn has_below(&self, point_m: DVec3, hair_m: f64) -> bool {
+        self.height(point_m) <= hair_m
+    }
+
+    /// What of a triangle is not above the plane, in triangles.
+    pub(crate) fn triangles_below(&self, corners: [DVec3; 3]) -> Vec<[DVec3; 3]> {
+        let side = |k: usize| [corners[k], corners[(k + 1) % 3]];
+        // Where sides cross the plane both neighbours have the crossing: once is enough.
+        let ends = (0..3).filter_map(|k| self.part_below(side(k))).flatten();
+        let mut ring: Vec<DVec3> = ends.collect();
+        ring.dedup();
+        if ring.len() > 1 && ring.first() == ring.last() {
+            ring.pop();
+        }
+        (2..ring.len()).map(|k| [ring[0], ring[k - 1], ring[k]]).collect()
+    }
+
     /// What of a segment is not above the plane.
     pub(crate) fn part_below(&self, [a, b]: [DVec3; 2]) -> Option<[DVec3; 2]> {
         match [a, b].map(|end| self.height(end) > 0.0) {
@@ -110,6 +128,24 @@ mod tests {
         assert_eq!(plane.part_below(up), Some([DVec3::ZERO, DVec3::Z]));
         assert_eq!(plane.part_below([up[1], up[0]]), Some([DVec3::Z, DVec3::ZERO]));
         assert_eq!(plane.part_below([DVec3::Z * 2.0, up[1]]), None);
+    }
+
+    #[test]
+    fn triangles_are_cut_off_at_the_plane() {
+        let plane = Plane { normal: DVec3::Z, offset_m: 1.0 };
+        let corner = |x: f64, z: f64| DVec3::new(x, 0.0, z);
+        let area_below = |corners: [DVec3; 3]| -> f64 {
+            let pieces = plane.triangles_below(corners);
+            let area = |[a, b, c]: [DVec3; 3]| 0.5 * (b - a).cross(c - a).length();
+            assert!(pieces.iter().flatten().all(|p| p.z <= 1.0));
+            pieces.into_iter().map(area).sum()
+        };
+        let tip_up = [corner(0.0, 0.0), corner(2.0, 0.0), corner(1.0, 2.0)];
+        assert!((area_below(tip_up) - 1.5).abs() < 1e-12);
+        let tip_down = tip_up.map(|p| corner(p.x, 2.0 - p.z));
+        assert!((area_below(tip_down) - 0.5).abs() < 1e-12);
+        assert!((area_below(tip_up.map(|p| p * 0.5)) - 0.5).abs() < 1e-12);
+        assert_eq!(area_below(tip_up.map(|p| p + DVec3::Z * 1.5)), 0.0);
     }
 
     #[test]

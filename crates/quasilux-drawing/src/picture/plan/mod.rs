@@ -29,6 +29,7 @@ mod pieces;
 mod projection;
 mod region;
 mod sheet;
+mod sight;
 mod symbols;
 mod thin;
 mod view;

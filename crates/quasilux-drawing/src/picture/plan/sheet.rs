@@ -22,8 +22,8 @@ const BOTTOM_PX: f64 = 24.0;
 /// Draws a room in plan and two elevations at one scale, with what is in it, and remarks at their
 /// places.
 ///
-/// The plan is cut at the height of the sensors, the elevations in the middle of the geometry.
-/// Views show the geometry; what lies far outside of it stands at their border with its distance.
+/// The plan is cut at the height of the sensors, the elevations in the middle of the geometry: they
+/// show what is before the viewer, and of what is behind only what is wrong. Views show the geometry; what lies far outside of it stands at their border with its distance.
 #[must_use]
 pub fn plan(picture: &PlanPicture<'_>) -> Drawing {
     let contents = Contents::new(picture, TOP_PX);
