@@ -7,6 +7,7 @@ use super::layout::Layout;
 use super::model::PlanPicture;
 use super::sight::Sight;
 use super::symbols::corners_of;
+use super::windows::Windows;
 use glam::DVec3;
 use std::collections::BTreeMap;
 
@@ -28,6 +29,7 @@ pub(crate) struct Contents<'a> {
     /// Height at which the plan is cut.
     pub(crate) cut_m: f64,
     pub(crate) edges: Vec<Edge>,
+    pub(crate) windows: Windows,
     /// The numbers of the remarks at places, which have them bit by bit.
     remarks: BTreeMap<[u64; 3], u32>,
 }
@@ -44,7 +46,9 @@ impl<'a> Contents<'a> {
         let edges = edges(picture.surfaces, &toward, least_m);
         let places = picture.marks.iter().filter_map(|m| Some((bits(m.position_m?), m.number)));
         let remarks = places.rev().collect();
-        Self { picture, geometry, layout, cut_m: cut_height_m(picture, &geometry), edges, remarks }
+        let windows = Windows::new(picture.surfaces, picture.openings_m, &edges);
+        let cut_m = cut_height_m(picture, &geometry);
+        Self { picture, geometry, layout, cut_m, edges, windows, remarks }
     }
 
     /// The number of the first remark on what stands at a place.

@@ -47,7 +47,7 @@ impl Plane {
     }
 
     /// Where the plane cuts a triangle.
-    fn cut(&self, corners: [DVec3; 3]) -> Option<[DVec3; 2]> {
+    pub(crate) fn cut(&self, corners: [DVec3; 3]) -> Option<[DVec3; 2]> {
         let above = corners.map(|corner| self.height(corner) > 0.0);
         // The corner that lies alone on its side.
         let alone =
@@ -81,6 +81,21 @@ impl<'a> Surfaces<'a> {
             .get(index)?
             .map(|v| self.positions_m.get(v as usize).copied().filter(|p| p.is_finite()));
         Some([a?, b?, c?])
+    }
+
+    /// The number of the material of a triangle.
+    pub(crate) fn material(self, index: usize) -> u32 {
+        self.material_of.get(index).copied().unwrap_or(0)
+    }
+
+    /// Triangles that light goes through.
+    pub(crate) fn panes(self) -> impl Iterator<Item = [DVec3; 3]> + 'a {
+        let lets_through = move |index: &usize| {
+            let material = self.material(*index) as usize;
+            self.lets_through.get(material).copied().unwrap_or(false)
+        };
+        let all = 0..self.triangles.len();
+        all.filter(lets_through).filter_map(move |index| self.triangle(index))
     }
 
     /// The lines in which a plane cuts the triangles.
@@ -152,7 +167,8 @@ mod tests {
     fn triangles_with_wrong_corners_are_left_out() {
         let positions_m = [DVec3::ZERO, DVec3::NAN, DVec3::Z, DVec3::ONE];
         let triangles = [[0, 1, 2], [0, 2, 9], [0, 2, 3]];
-        let surfaces = Surfaces { positions_m: &positions_m, triangles: &triangles };
+        let surfaces =
+            Surfaces { positions_m: &positions_m, triangles: &triangles, ..Surfaces::default() };
         assert_eq!(surfaces.corners().count(), 1);
     }
 }

@@ -11,6 +11,7 @@ use super::sight::Sight;
 use super::symbols::{self, Ink};
 use super::thin::thinned;
 use super::view::{Pin, View};
+use super::windows::WindowView;
 use crate::drawing::Drawing;
 use crate::style::{Anchor, Colour, INK, Stroke, TextStyle};
 use crate::text::width_px;
@@ -87,6 +88,8 @@ impl Painter<'_> {
                 .flat_map(move |corners| sight.triangles(corners))
                 .map(move |corners| corners.map(|corner| projection.place(corner)))
         };
+        let windows = contents.windows.seen(&WindowView { projection, frame, sight });
+        windows.draw_faces(drawing, frame, None);
         let outlines = region::outlines(glowing());
         drawing.region(&outlines, ink::GLOW);
         let seen = contents.edges.iter().filter(|edge| edge.is_seen(self.index));
@@ -95,6 +98,7 @@ impl Painter<'_> {
         let cut = surfaces.cut(plane).map(on_sheet);
         let cut = thinned(cut, frame, MAX_LINES);
         drawing.lines(&cut, ink::CUT);
+        windows.draw_lines(drawing);
         self.labels.keep_off(cut);
         let sides = outlines
             .iter()

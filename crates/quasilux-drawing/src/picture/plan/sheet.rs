@@ -23,13 +23,14 @@ const BOTTOM_PX: f64 = 24.0;
 /// places.
 ///
 /// The plan is cut at the height of the sensors, the elevations in the middle of the geometry: they
-/// show what is before the viewer, and of what is behind only what is wrong. Views show the geometry; what lies far outside of it stands at their border with its distance.
+/// show what is before the viewer, and of what is behind only what is wrong. Views show the
+/// geometry; what lies far outside of it stands at their border with its distance.
 #[must_use]
 pub fn plan(picture: &PlanPicture<'_>) -> Drawing {
     let contents = Contents::new(picture, TOP_PX);
     let layout = &contents.layout;
     let content_px = layout.width_px - LEFT_PX - RIGHT_PX;
-    let key = Key::new(picture, layout, content_px);
+    let key = Key::new(&contents, content_px);
     let notes = Notes::new(&contents, content_px);
     let notes_top = layout.bottom_px + key.height_px() + 8.0;
     let size_px = [layout.width_px, notes_top + notes.height_px() + BOTTOM_PX];

@@ -1,6 +1,6 @@
 //! Whole sheets: what stands on them, that they are bounded, and that nothing breaks them.
 
-use super::super::fixtures::{Shell, luminaire, room};
+use super::super::fixtures::{Shell, luminaire, room, room_with_window};
 use super::super::ink;
 use super::super::model::{PlanAreaLight, PlanCamera, PlanGrid, PlanMark, PlanPoint, PlanPoints};
 use super::*;
@@ -163,6 +163,28 @@ fn a_door_behind_the_viewer_is_not_drawn() {
     assert_eq!(edges(&shell, 2).len(), edges(&bare, 2).len() + 8);
 }
 
+/// A window whose sill is above the cut of the plan: a line of glass in the south wall of the plan
+/// and, where it is cut, of the side elevation; the front elevation looks the other way.
+#[test]
+fn windows_are_in_plan_and_section() {
+    let window = |material| plan(&room_with_window(material).picture(&[]));
+    let glass = |drawing: &Drawing, view| ends(drawing, view, ink::WINDOW_GLASS);
+    let glazed = window(Some(1));
+    let px_per_m = 900.0 / 10.0;
+    for (view, length_m) in [(0, 2.0), (1, 0.0), (2, 1.0)] {
+        let ends = glass(&glazed, view);
+        let extreme = |pick: fn(DVec2, DVec2) -> DVec2| ends.iter().copied().reduce(pick);
+        let low = extreme(DVec2::min).unwrap_or_default();
+        let found_m = (extreme(DVec2::max).unwrap_or_default() - low).max_element() / px_per_m;
+        assert!((found_m - length_m).abs() < 0.02, "{found_m} m in view {view}");
+    }
+    assert!(has(&glazed, "window at any height"));
+    let walled = window(Some(0));
+    assert!(glass(&walled, 0).is_empty() && !has(&walled, "window at any height"));
+    let open = window(None);
+    assert!(glass(&open, 0).is_empty() && !ends(&open, 0, ink::WINDOW_GAP).is_empty());
+}
+
 #[test]
 fn marks_have_a_balloon_in_each_view_and_a_text() {
     let shell = room();
@@ -258,12 +280,16 @@ fn a_million_triangles_are_few_lines() {
 
 #[test]
 fn odd_scenes_do_not_break() {
-    let sheet =
-        Shell { positions_m: vec![DVec3::ZERO, DVec3::X, DVec3::Y], triangles: vec![[0, 1, 2]] };
+    let sheet = Shell {
+        positions_m: vec![DVec3::ZERO, DVec3::X, DVec3::Y],
+        triangles: vec![[0, 1, 2]],
+        ..Shell::default()
+    };
     let huge = Shell::default().with_box(DVec3::splat(-1e300), DVec3::splat(1e300));
     let tiny = Shell::default().with_box(DVec3::ONE, DVec3::ONE + 1e-12);
     let thin = Shell::default().with_box(DVec3::ZERO, DVec3::new(1e4, 1e-3, 1e-3));
-    let point = Shell { positions_m: vec![DVec3::ONE; 3], triangles: vec![[0, 1, 2]] };
+    let point =
+        Shell { positions_m: vec![DVec3::ONE; 3], triangles: vec![[0, 1, 2]], ..Shell::default() };
     let far = [DVec3::splat(1e200), DVec3::NAN, DVec3::ZERO].map(luminaire);
     let points = [PlanPoint { position_m: DVec3::splat(-1e9), normal: DVec3::Z }; 3];
     let grid = PlanGrid {
