@@ -13,7 +13,7 @@ use super::plan::Labels;
 use super::scale::{Level, ValueScale};
 use crate::canvas::mix;
 use crate::drawing::{Drawing, Frame};
-use crate::number::brief;
+use crate::number::{among_others, brief, shared_place};
 use crate::style::{Anchor, Colour, GREY, Stroke, TextStyle, WHITE};
 use crate::text::width_px;
 use glam::DVec2;
@@ -152,7 +152,8 @@ impl Plot<'_> {
 
     /// Places the marks of the smallest and the largest value before all other texts.
     fn place_extremes(&self, boxes: &mut Labels) -> Vec<Mark> {
-        let found = extremes(&self.values, |value| brief(value, 3));
+        let place = shared_place(self.values.iter().copied().flatten());
+        let found = extremes(&self.values, |value| among_others(value, place));
         let mark = |extreme: &Extreme| {
             let centre = self.corner + self.centre(extreme.cell);
             let colour = self.colour_of(self.values[extreme.cell]);
