@@ -30,8 +30,11 @@ pub fn grid(grid: &GridPicture<'_>) -> Drawing {
     let shared = if grid.scale_cells.is_empty() { grid.cells } else { grid.scale_cells };
     let scale = ValueScale::from_cells(shared);
     let window = Window::new(grid);
-    let layout = Layout::of_window(&window, grid.edges_m().into(), grid.caption.facts);
-    let mut drawing = frame::titled(&layout, &grid.caption);
+    let kind = if scale.is_logarithmic() { ", logarithmic scale" } else { "" };
+    let method = format!("{}{kind}", grid.caption.method);
+    let caption = Caption { method: &method, ..grid.caption };
+    let layout = Layout::of_window(&window, grid.edges_m().into(), &caption);
+    let mut drawing = frame::titled(&layout, caption.title);
     plot::draw(&mut drawing, &layout, grid, &scale);
     draw_axes(&mut drawing, &layout, grid, &window);
     draw_north(&mut drawing, &layout, grid);
@@ -43,9 +46,7 @@ pub fn grid(grid: &GridPicture<'_>) -> Drawing {
         target: grid.target.map(|target| legend_target(grid, &scale, target)),
     };
     frame::draw_legend(&mut drawing, &layout, &legend);
-    let kind = if scale.is_logarithmic() { ", logarithmic scale" } else { "" };
-    let method = format!("{}{kind}", grid.caption.method);
-    frame::draw_footer(&mut drawing, &layout, &Caption { method: &method, ..grid.caption });
+    frame::draw_footer(&mut drawing, &layout);
     drawing
 }
 

@@ -30,6 +30,7 @@ mod series;
 mod sky;
 mod tone_map;
 mod window;
+mod words;
 mod year;
 
 pub use caption::Caption;
