@@ -281,6 +281,8 @@ impl Plot<'_> {
             // A little fainter than the contour lines, which are read first.
             let ink = mix(colour, ink_on(colour), 0.85);
             let style = TextStyle { halo: Some(colour), ..TextStyle::new(px, ink, Anchor::Middle) };
+            // Lines end at a number.
+            drawing.fill(own.frame(), colour);
             let below = DVec2::Y * (0.5 * capital_px(px));
             let base = (centre + below).round() + DVec2::splat(0.5);
             drawing.text(base.to_array(), style, number);
@@ -366,6 +368,37 @@ mod tests {
                     |at: &DVec2| label.iter().any(|own| own.distance(*at) < 2.0 * LETTER_HALF_PX);
                 assert!(!labels[..number].iter().flatten().any(near), "{k}: {label:?}");
             }
+        }
+    }
+
+    /// Behind each number its cell is as it was before lines went through it.
+    #[test]
+    fn lines_end_at_numbers() {
+        let grid = Grid::new([5.0, 4.0], [20, 16], 0.001, batwing);
+        let picture = GridPicture { target: Some(420.0), ..grid.picture("workplane") };
+        let shapes = crate::picture::grid(&picture).shapes;
+        let scale = ValueScale::from_cells(&grid.cells);
+        let values: Vec<&[Shape]> = shapes
+            .windows(2)
+            .filter(|pair| {
+                matches!(&pair[1], Shape::Text { style, .. }
+                    if style.halo.is_some() && style.size_px != LABEL_PX)
+            })
+            .collect();
+        assert!(values.len() > 300);
+        for pair in values {
+            let [Shape::Fill { frame, colour }, Shape::Text { place_px, style, text }] = pair
+            else {
+                panic!("a number without a ground");
+            };
+            let value: f64 = text.parse().expect("a number");
+            assert!(*colour == style.halo.expect("a halo"), "{value}");
+            assert!(grid.cells.iter().any(|it| it.value.map(|x| scale.colour(x)) == Some(*colour)));
+            let half = 0.5 * width_px(text, style.size_px);
+            let [left, top] = [place_px[0] - half, place_px[1] - capital_px(style.size_px)];
+            let [[x, y], [width, height]] = [frame.corner_px, frame.size_px];
+            assert!(x < left && y < top && x + width > left + 2.0 * half, "{text}");
+            assert!(y + height > place_px[1], "{text}");
         }
     }
 

@@ -53,7 +53,7 @@ impl Known {
         let known = field.iter().zip(&self.values).zip(&self.reaches);
         let squares = known
             .filter(|((s, _), reach)| **reach > 0.0 && s.is_finite())
-            .map(|((s, value), reach)| (ERRORS * (s - value) / reach).powi(2));
+            .map(|((s, value), reach)| square(ERRORS * (s - value) / reach));
         let (mut sum, mut count) = (0.0, 0.0);
         for square in squares {
             sum += square;
@@ -87,6 +87,10 @@ impl Known {
         }
         if weight > 0.0 { sum / weight } else { self.values[cell] }
     }
+}
+
+fn square(x: f64) -> f64 {
+    x * x
 }
 
 /// A cell in its row or column.
@@ -137,7 +141,7 @@ mod tests {
 
     fn roughness(field: &[f64], columns: usize) -> f64 {
         let rows = field.chunks(columns).flat_map(|row| row.windows(3));
-        rows.map(|w| (w[0] - 2.0 * w[1] + w[2]).powi(2)).sum()
+        rows.map(|w| square(w[0] - 2.0 * w[1] + w[2])).sum()
     }
 
     /// Noise goes, and the field is nearer to the truth than the values.
@@ -152,7 +156,7 @@ mod tests {
         let (true_values, measured) = (values(&truth.cells), values(&noisy));
         let field = steady([20, 16], &noisy);
         let off = |field: &[f64]| -> f64 {
-            field.iter().zip(&true_values).map(|(a, b)| (a - b).powi(2)).sum()
+            field.iter().zip(&true_values).map(|(a, b)| square(a - b)).sum()
         };
         assert!(off(&field) < 0.7 * off(&measured), "{} of {}", off(&field), off(&measured));
         assert!(roughness(&field, 20) < 0.2 * roughness(&measured, 20));
