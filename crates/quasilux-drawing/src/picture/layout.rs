@@ -3,16 +3,10 @@
 use super::caption::Caption;
 use super::window::Window;
 use super::words::Words;
+pub(crate) use super::words::{SMALL_PX, SUMMARY_PX};
 use crate::drawing::Frame;
 use crate::font::CAPITAL_EM;
 use glam::DVec2;
-
-/// Font sizes of the title, the largest that fits is taken.
-pub(crate) const TITLE_PX: [f64; 3] = [28.0, 22.0, 17.0];
-/// Font size of the figures under it.
-pub(crate) const SUMMARY_PX: f64 = 15.5;
-/// Font size of numbers on axes and legend.
-pub(crate) const SMALL_PX: f64 = 12.6;
 
 /// Longer side of the plot.
 const PLOT_LONG: f64 = 900.0;

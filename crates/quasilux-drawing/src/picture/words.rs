@@ -2,9 +2,14 @@
 //! and then takes more lines, and so does all that stands above and below the picture.
 
 use super::caption::Caption;
-use super::layout::{SMALL_PX, SUMMARY_PX, TITLE_PX};
 use crate::text::{fits_at, width_px, wrapped};
 
+/// Font sizes of the title, the largest that fits is taken.
+const TITLE_PX: [f64; 3] = [28.0, 22.0, 17.0];
+/// Font size of the figures under it.
+pub(crate) const SUMMARY_PX: f64 = 15.5;
+/// Font size of numbers on axes and legend, and of what stands below.
+pub(crate) const SMALL_PX: f64 = 12.6;
 /// The largest share of the width for the name of what a picture belongs to.
 const MAX_PROJECT_SHARE: f64 = 0.4;
 /// Clear space between title and project.
