@@ -4,8 +4,8 @@
 use super::cells::{GridPicture, Surroundings};
 use super::layout::Layout;
 use super::plan::{
-    Bounds, Ink, Plane, Projection, Sight, TICK_PX, WindowView, Windows, edges, opening, outlines,
-    star, thinned,
+    Bounds, Ink, Plane, Projection, Scope, TICK_PX, WindowSet, WindowView, edges, opening,
+    outlines, star, thinned,
 };
 use crate::drawing::{Drawing, Frame};
 use crate::style::{Colour, Stroke, WHITE};
@@ -78,10 +78,10 @@ fn draw_surfaces(
     let cut = thinned(surfaces.cut(plane).map(on_sheet), frame, MAX_LINES);
     drawing.lines(&cut, Stroke::solid(WHITE, 4.0));
     drawing.lines(&cut, Stroke::solid(CUT, 2.2));
-    let windows = Windows::new(surfaces, grid.surroundings.openings_m, &found);
+    let windows = WindowSet::new(surfaces, grid.surroundings.openings_m, &found);
     let cut = (!grid.is_level()).then_some(plane);
-    let sight = Sight { cut, hair_m: 0.0 };
-    let windows = windows.seen(&WindowView { projection: *projection, frame, sight });
+    let scope = Scope { cut, hair_m: 0.0 };
+    let windows = windows.seen(&WindowView { projection: *projection, frame, scope });
     windows.draw_faces(drawing, frame, Some(HALO_PX));
     windows.draw_lines(drawing);
 }

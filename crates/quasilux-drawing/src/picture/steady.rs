@@ -20,17 +20,17 @@ const ERRORS: f64 = 2.0;
 /// The values, cells without one are not a number.
 pub(super) fn steady([columns, rows]: [usize; 2], cells: &[Cell]) -> Vec<f64> {
     let half_width = |cell: &Cell| cell.half_width.filter(|w| w.is_finite() && *w > 0.0);
-    let known = Known {
+    let grid = NoisyGrid {
         columns,
         rows,
         values: cells.iter().map(|cell| cell.value.unwrap_or(f64::NAN)).collect(),
         reaches: cells.iter().map(|cell| half_width(cell).unwrap_or(0.0)).collect(),
     };
-    let mut best = known.values.clone();
+    let mut best = grid.values.clone();
     for pull in PULLS {
         let mut field = best.clone();
-        known.settle(&mut field, pull);
-        if known.discrepancy(&field) > 1.0 {
+        grid.smooth(&mut field, pull);
+        if grid.discrepancy(&field) > 1.0 {
             break;
         }
         best = field;
@@ -39,7 +39,7 @@ pub(super) fn steady([columns, rows]: [usize; 2], cells: &[Cell]) -> Vec<f64> {
 }
 
 /// What is known of a grid.
-struct Known {
+struct NoisyGrid {
     columns: usize,
     rows: usize,
     values: Vec<f64>,
@@ -47,7 +47,7 @@ struct Known {
     reaches: Vec<f64>,
 }
 
-impl Known {
+impl NoisyGrid {
     /// The mean square of what a field differs from the values, in standard errors.
     fn discrepancy(&self, field: &[f64]) -> f64 {
         let known = field.iter().zip(&self.values).zip(&self.reaches);
@@ -63,7 +63,7 @@ impl Known {
     }
 
     /// Makes a field smooth.
-    fn settle(&self, field: &mut [f64], pull: f64) {
+    fn smooth(&self, field: &mut [f64], pull: f64) {
         for _ in 0..ROUNDS.min(MAX_STEPS / field.len().max(1)) {
             for cell in 0..field.len() {
                 let (value, reach) = (self.values[cell], self.reaches[cell]);

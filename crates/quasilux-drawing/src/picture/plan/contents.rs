@@ -5,9 +5,9 @@ use super::cut::Plane;
 use super::edges::{Edge, edges};
 use super::layout::Layout;
 use super::model::PlanPicture;
-use super::sight::Sight;
+use super::scope::Scope;
 use super::symbols::corners_of;
-use super::windows::Windows;
+use super::windows::WindowSet;
 use glam::DVec3;
 use std::collections::BTreeMap;
 
@@ -29,7 +29,7 @@ pub(crate) struct Contents<'a> {
     /// Height at which the plan is cut.
     pub(crate) cut_m: f64,
     pub(crate) edges: Vec<Edge>,
-    pub(crate) windows: Windows,
+    pub(crate) windows: WindowSet,
     /// The numbers of the remarks at places, which have them bit by bit.
     remarks: BTreeMap<[u64; 3], u32>,
 }
@@ -46,7 +46,7 @@ impl<'a> Contents<'a> {
         let edges = edges(picture.surfaces, &toward, least_m);
         let places = picture.marks.iter().filter_map(|m| Some((bits(m.position_m?), m.number)));
         let remarks = places.rev().collect();
-        let windows = Windows::new(picture.surfaces, picture.openings_m, &edges);
+        let windows = WindowSet::new(picture.surfaces, picture.openings_m, &edges);
         let cut_m = cut_height_m(picture, &geometry);
         Self { picture, geometry, layout, cut_m, edges, windows, remarks }
     }
@@ -72,9 +72,9 @@ impl<'a> Contents<'a> {
 
 impl Contents<'_> {
     /// What of things in space a view shows.
-    pub(crate) fn sight(&self, view: usize) -> Sight {
+    pub(crate) fn scope(&self, view: usize) -> Scope {
         let hair_m = 1e-6 * self.geometry.size_m().max_element();
-        Sight { cut: (view > 0).then(|| self.plane(view)), hair_m }
+        Scope { cut: (view > 0).then(|| self.plane(view)), hair_m }
     }
 }
 

@@ -7,7 +7,7 @@ use super::labels::{Box, Labels};
 use super::model::PlanLuminaire;
 use super::pieces::pieces;
 use super::region;
-use super::sight::Sight;
+use super::scope::Scope;
 use super::symbols::{self, Ink};
 use super::thin::thinned;
 use super::view::{Pin, View};
@@ -33,8 +33,8 @@ const BALLOON_PX: f64 = 9.5;
 pub(crate) fn draw(drawing: &mut Drawing, contents: &Contents<'_>, index: usize) {
     let view = contents.layout.views[index];
     let labels = Labels::new(view.frame);
-    let sight = contents.sight(index);
-    let mut painter = Painter { contents, view, index, sight, labels };
+    let scope = contents.scope(index);
+    let mut painter = Painter { contents, view, index, scope, labels };
     drawing.clipped(view.frame, |drawing| {
         painter.surfaces(drawing);
         painter.grids(drawing);
@@ -51,7 +51,7 @@ struct Painter<'a> {
     contents: &'a Contents<'a>,
     view: View,
     index: usize,
-    sight: Sight,
+    scope: Scope,
     labels: Labels,
 }
 
@@ -79,16 +79,16 @@ impl Painter<'_> {
     fn surfaces(&mut self, drawing: &mut Drawing) {
         let (contents, projection, frame) = (self.contents, self.view.projection, self.view.frame);
         let (surfaces, plane) = (contents.picture.surfaces, contents.plane(self.index));
-        let sight = self.sight;
+        let scope = self.scope;
         let on_sheet = |ends: [DVec3; 2]| ends.map(|end| projection.place(end));
         let glowing = || {
             let lights = contents.picture.area_lights.iter();
             let all = lights.flat_map(|light| light.triangles);
             all.filter_map(move |&t| surfaces.triangle(t as usize))
-                .flat_map(move |corners| sight.triangles(corners))
+                .flat_map(move |corners| scope.triangles(corners))
                 .map(move |corners| corners.map(|corner| projection.place(corner)))
         };
-        let windows = contents.windows.seen(&WindowView { projection, frame, sight });
+        let windows = contents.windows.seen(&WindowView { projection, frame, scope });
         windows.draw_faces(drawing, frame, None);
         let outlines = region::outlines(glowing());
         drawing.region(&outlines, ink::GLOW);
@@ -115,7 +115,7 @@ impl Painter<'_> {
         let lights = self.contents.picture.area_lights.iter();
         let pieces = lights.flat_map(|light| pieces(surfaces, light.triangles));
         let seen = pieces
-            .filter(|piece| piece.mean_normal.length() > 0.5 && self.sight.holds(piece.middle_m));
+            .filter(|piece| piece.mean_normal.length() > 0.5 && self.scope.holds(piece.middle_m));
         for piece in seen.take(MAX_TEXTS) {
             let at = self.view.projection.place(piece.middle_m);
             let across = self.view.projection.direction(piece.mean_normal.normalize());
@@ -128,19 +128,19 @@ impl Painter<'_> {
         for grid in self.contents.picture.grids.iter().take(MAX_TEXTS) {
             let corners = symbols::corners_of(grid);
             let middle_m = middle_of(&corners);
-            let sight = self.sight_of(middle_m);
+            let scope = self.scope_of(middle_m);
             let inside = |p: &DVec2| self.view.holds(*p);
             // Dashes are counted: only what the frame shows is drawn.
-            let sides = (0..4).filter_map(|k| sight.segment([corners[k], corners[(k + 1) % 4]]));
+            let sides = (0..4).filter_map(|k| scope.segment([corners[k], corners[(k + 1) % 4]]));
             let sides = sides.map(|ends| ends.map(|end| projection.place(end)));
             for ends in thinned(sides, self.view.frame, 4) {
                 drawing.lines(&[ends], ink::SENSOR_EDGE);
             }
-            let sample = symbols::sample_of(grid, SAMPLE).into_iter().filter(|p| sight.holds(*p));
+            let sample = symbols::sample_of(grid, SAMPLE).into_iter().filter(|p| scope.holds(*p));
             for place in sample.map(|p| projection.place(p)).filter(inside) {
                 drawing.disk(place.to_array(), 1.3, ink::SENSOR);
             }
-            if !sight.holds(middle_m) {
+            if !scope.holds(middle_m) {
                 continue;
             }
             let pin = self.view.pin(middle_m);
@@ -214,13 +214,13 @@ impl Painter<'_> {
 
     /// Whether a thing at a place is drawn: before the viewer, and also behind where it is wrong.
     fn is_shown(&self, place_m: DVec3) -> bool {
-        self.sight_of(place_m).holds(place_m)
+        self.scope_of(place_m).holds(place_m)
     }
 
     /// What is shown of a thing around a place; all of what is wrong.
-    fn sight_of(&self, place_m: DVec3) -> Sight {
-        let cut = self.sight.cut.filter(|_| !self.contents.is_fault(place_m));
-        Sight { cut, ..self.sight }
+    fn scope_of(&self, place_m: DVec3) -> Scope {
+        let cut = self.scope.cut.filter(|_| !self.contents.is_fault(place_m));
+        Scope { cut, ..self.scope }
     }
 
     /// A luminaire as it is drawn: small beyond the frame, and where it would hide the room.
@@ -373,8 +373,8 @@ impl Painter<'_> {
     /// Where the name of a grid stands: at its upper left corner, of what is shown of it.
     fn name_of_grid(&self, corners: &[DVec3; 4]) -> Option<Pin> {
         let middle_m = middle_of(corners);
-        let sight = self.sight_of(middle_m);
-        let sides = (0..4).filter_map(|k| sight.segment([corners[k], corners[(k + 1) % 4]]));
+        let scope = self.scope_of(middle_m);
+        let sides = (0..4).filter_map(|k| scope.segment([corners[k], corners[(k + 1) % 4]]));
         let ends: Vec<DVec3> = sides.flatten().collect();
         let places = ends.iter().map(|end| self.view.projection.place(*end));
         let corner = places

@@ -4,9 +4,9 @@
 //!
 //! Corners at one place are one corner, whatever their indices. Of each triangle at an edge only
 //! the direction w counts in which it leaves the edge, a unit vector square to it, so that the
-//! order of corners does not matter: where each triangle at the edge has another one of its material
-//! that leaves about the opposite way, the surface goes on. Seen along d, it turns there if both leave to the
-//! same side of the edge's line on the sheet.
+//! order of corners does not matter: where each triangle at the edge has another one of its
+//! material that leaves about the opposite way, the surface goes on. Seen along d, it turns there
+//! if both leave to the same side of the edge's line on the sheet.
 
 use super::model::Surfaces;
 use glam::DVec3;

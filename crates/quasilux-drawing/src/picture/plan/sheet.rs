@@ -85,9 +85,8 @@ fn facts(contents: &Contents<'_>) -> String {
     let [x, y, z] = bounds.size_m().to_array().map(metres);
     let range = |axis: usize| [bounds.low, bounds.high].map(|p| metres(p[axis])).join(" to ");
     let [along_x, along_y, along_z] = [0, 1, 2].map(range);
-    format!(
-        "{x} m \u{d7} {y} m \u{d7} {z} m, {triangles} triangles (x {along_x}, y {along_y}, z {along_z} m)"
-    )
+    let size = format!("{x} m \u{d7} {y} m \u{d7} {z} m");
+    format!("{size}, {triangles} triangles (x {along_x}, y {along_y}, z {along_z} m)")
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@ use super::ink;
 use super::model::Surfaces;
 use super::projection::Projection;
 use super::region::outlines;
-use super::sight::Sight;
+use super::scope::Scope;
 use super::thin::thinned;
 use crate::drawing::{Drawing, Frame};
 use crate::style::{Stroke, WHITE};
@@ -18,11 +18,11 @@ use glam::{DVec2, DVec3};
 
 /// Most lines of a kind in one view.
 const MAX_LINES: usize = 4000;
-/// Sine of the angle between sight and pane below which it is a line.
+/// Sine of the angle between pane and the viewer's direction below which it is a line.
 const EDGE_ON: f64 = 0.05;
 
 /// Windows in triangles.
-pub(crate) struct Windows {
+pub(crate) struct WindowSet {
     panes: Vec<[DVec3; 3]>,
     openings: Vec<[DVec3; 3]>,
 }
@@ -45,10 +45,10 @@ pub(crate) struct WindowView {
     pub(crate) projection: Projection,
     pub(crate) frame: Frame,
     /// What is shown of windows; in a section lines are those of its cut.
-    pub(crate) sight: Sight,
+    pub(crate) scope: Scope,
 }
 
-impl Windows {
+impl WindowSet {
     /// The panes of surfaces, openings, and holes between the edges of the surfaces.
     pub(crate) fn new(surfaces: Surfaces<'_>, openings_m: &[[DVec3; 4]], edges: &[Edge]) -> Self {
         let corners = openings_m.iter().copied().chain(holes(edges));
@@ -85,7 +85,7 @@ impl WindowView {
     fn lines(&self, triangles: &[[DVec3; 3]]) -> Vec<[DVec2; 2]> {
         let edge_on = triangles.iter().copied().filter(|corners| self.is_edge_on(*corners));
         let place = |ends: [DVec3; 2]| ends.map(|end| self.projection.place(end));
-        let line = |corners: [DVec3; 3]| match self.sight.cut {
+        let line = |corners: [DVec3; 3]| match self.scope.cut {
             Some(plane) => plane.cut(corners).map(place),
             None => longest(corners.map(|corner| self.projection.place(corner))),
         };
@@ -94,7 +94,7 @@ impl WindowView {
 
     fn faces(&self, triangles: &[[DVec3; 3]]) -> Vec<Vec<DVec2>> {
         let facing = triangles.iter().copied().filter(|corners| !self.is_edge_on(*corners));
-        let shown = facing.flat_map(|corners| self.sight.triangles(corners));
+        let shown = facing.flat_map(|corners| self.scope.triangles(corners));
         outlines(shown.map(|corners| corners.map(|corner| self.projection.place(corner))))
     }
 }

@@ -6,14 +6,14 @@ use glam::DVec3;
 
 /// What of things in space a view shows.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Sight {
+pub(crate) struct Scope {
     /// The cut; `None` where things on both sides of it are shown.
     pub(crate) cut: Option<Plane>,
     /// Things that stand this little behind the viewer stand at the cut.
     pub(crate) hair_m: f64,
 }
 
-impl Sight {
+impl Scope {
     /// Whether a thing at a place is before the viewer.
     pub(crate) fn holds(&self, place_m: DVec3) -> bool {
         self.cut.is_none_or(|plane| plane.has_below(place_m, self.hair_m))
