@@ -129,7 +129,7 @@ fn illuminance() -> Drawing {
             title: "机の上 workplane",
             project: "office",
             facts: &["average 498.0 ± 1.1 lx".to_owned(), "uniformity 0.43 ± 0.01".to_owned()],
-            method: "path, sobol, owen, 16 x 1 024 samples, 95 % intervals",
+            method: "path, sobol, owen, 16 \u{d7} 1 024 samples, 95 % intervals",
             caution: "stopped before the wanted tolerance was reached",
         },
         unit: "lx",

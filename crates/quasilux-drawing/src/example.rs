@@ -39,7 +39,7 @@ impl Grid {
                 title,
                 project: "office",
                 facts: &self.facts,
-                method: "path, sobol, owen, 16 x 1 024 samples, 95 % intervals",
+                method: "path, sobol, owen, 16 \u{d7} 1 024 samples, 95 % intervals",
                 caution: "stopped before the wanted tolerance was reached",
             },
             unit: "lx",

@@ -41,6 +41,23 @@ pub fn to_place(x: f64, place: i32) -> String {
     if is_zero { text.trim_start_matches('-').to_owned() } else { text }
 }
 
+/// The decimal place to which numbers that stand side by side are written: three digits of the
+/// largest one, and no place above the units.
+#[must_use]
+pub fn shared_place(numbers: impl Iterator<Item = f64>) -> i32 {
+    let largest = numbers.fold(0.0_f64, |most, x| most.max(x.abs()));
+    decimal_exponent(largest).map_or(0, |exponent| exponent - 2).min(0)
+}
+
+/// A number among others: to their place, and one that is much smaller with two digits.
+#[must_use]
+pub fn among_others(x: f64, place: i32) -> String {
+    match decimal_exponent(x) {
+        Some(exponent) if exponent <= place => brief(x, 2),
+        _ => to_place(x, place),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -51,6 +68,16 @@ mod tests {
         assert_eq!(brief(1500.0, 4), "1500");
         assert_eq!(brief(0.0, 4), "0");
         assert_eq!(brief(123_456.0, 3), "123456");
+    }
+
+    /// Between a tenth and a thousand times the unit, and a small one among large ones.
+    #[test]
+    fn numbers_side_by_side_have_one_place() {
+        let numbers = [412.46, 143.0, 2.345, 0.0, 0.046];
+        let place = shared_place(numbers.into_iter());
+        assert_eq!(numbers.map(|x| among_others(x, place)), ["412", "143", "2.3", "0", "0.046"]);
+        assert_eq!(shared_place([0.0123, -0.2].into_iter()), -3);
+        assert_eq!(shared_place([2194.0].into_iter()), 0);
     }
 
     #[test]

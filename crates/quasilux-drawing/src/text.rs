@@ -44,14 +44,58 @@ pub(crate) fn fitted(text: &str, size_px: f64, most_px: f64) -> String {
     if width_px(text, size_px) <= most_px {
         return text.to_owned();
     }
+    cut_off(text, size_px, most_px)
+}
+
+/// As much of the beginning of a text as has room with an ellipsis.
+fn cut_off(text: &str, size_px: f64, most_px: f64) -> String {
     let mut kept = text.to_owned();
-    while kept.pop().is_some() {
+    loop {
         let shorter = format!("{}\u{2026}", kept.trim_end());
         if width_px(&shorter, size_px) <= most_px {
             return shorter;
         }
+        if kept.pop().is_none() {
+            return String::new();
+        }
     }
-    String::new()
+}
+
+/// The text in at most `most_lines` lines of a width, broken between words, and words that are too
+/// long for a line between characters. What has no room there ends with an ellipsis.
+pub(crate) fn wrapped(text: &str, size_px: f64, most_px: f64, most_lines: usize) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        if let Some(last) = lines.last_mut() {
+            let longer = format!("{last} {word}");
+            if width_px(&longer, size_px) <= most_px {
+                *last = longer;
+                continue;
+            }
+        }
+        let mut rest = word;
+        while !rest.is_empty() {
+            let room = |end: &usize| width_px(&rest[..*end], size_px) <= most_px;
+            let ends = rest.char_indices().map(|(at, char)| at + char.len_utf8());
+            let first = rest.chars().next().map_or(0, char::len_utf8);
+            let end = ends.take_while(room).last().unwrap_or(first);
+            lines.push(rest[..end].to_owned());
+            rest = &rest[end..];
+        }
+    }
+    if lines.len() > most_lines {
+        lines.truncate(most_lines);
+        if let Some(last) = lines.last_mut() {
+            *last = cut_off(last, size_px, most_px);
+        }
+    }
+    lines
+}
+
+/// The first of some font sizes at which a line of text has room, or the last one.
+pub(crate) fn fits_at(text: &str, sizes_px: &[f64], most_px: f64) -> f64 {
+    let fits = |px: &f64| width_px(text, *px) <= most_px;
+    sizes_px.iter().copied().find(fits).or(sizes_px.last().copied()).unwrap_or_default()
 }
 
 /// The outlines of a line of text whose place is `at`, enlarged by `scale`.
@@ -146,6 +190,22 @@ mod tests {
         assert_eq!(texts, [("N", false), ("-1", true), (" and 2", false), ("a", true)]);
         let sum = width_px("N", 10.0) + RAISED_SCALE * width_px("-1", 10.0);
         assert!((width_px("N^{-1}", 10.0) - sum).abs() < 1e-9);
+    }
+
+    #[test]
+    fn texts_wrap_and_lose_nothing() {
+        let text = "METAL ENCLOSURE, WHITE PAINTED REFLECTOR, a_name_without_any_space_in_it";
+        for most_px in [60.0, 100.0, 150.0, 400.0] {
+            let lines = wrapped(text, 14.0, most_px, 40);
+            assert!(lines.iter().all(|line| width_px(line, 14.0) <= most_px), "{lines:?}");
+            let letters = |text: &str| text.replace(' ', "");
+            assert_eq!(letters(&lines.concat()), letters(text));
+        }
+        let cut = wrapped(text, 14.0, 150.0, 2);
+        assert!(cut.len() == 2 && cut[1].ends_with('\u{2026}') && !cut[0].contains('\u{2026}'));
+        assert!(cut.iter().all(|line| width_px(line, 14.0) <= 150.0));
+        assert!(wrapped(" ", 14.0, 100.0, 3).is_empty());
+        assert_eq!(wrapped("wide", 14.0, 1.0, 9).len(), 4);
     }
 
     #[test]

@@ -7,6 +7,7 @@
 
 use crate::figure::Figure;
 pub use quasilux_drawing::number::brief;
+pub(crate) use quasilux_drawing::number::{among_others, shared_place};
 use quasilux_drawing::number::{decimal_exponent, to_place};
 
 /// A value is never written with more significant digits than this, however narrow its interval.

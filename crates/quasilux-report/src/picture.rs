@@ -1,6 +1,6 @@
 //! The results as pictures: what [`quasilux_drawing`] is told of a grid and of a camera.
 
-use crate::number::{brief, count, figure_text};
+use crate::number::{among_others, brief, count, figure_text, shared_place};
 use crate::plan::Lights;
 use crate::{CameraReport, Figure, Report, SensorReport};
 use quasilux_drawing::exr::{Channel, Layer, exr_bytes};
@@ -164,15 +164,31 @@ fn samples(sensor: &SensorReport) -> RangeInclusive<u64> {
 }
 
 /// The summary of a sensor, each figure as one piece of text.
+///
+/// The smallest and the largest value are those of the cells that are marked, with the digits that
+/// cells have, and then the interval of the true one, which is not symmetric about it.
 fn sensor_facts(sensor: &SensorReport) -> Vec<String> {
+    let values = || sensor.points.iter().filter_map(|point| point.illuminance_lx.value);
+    let place = shared_place(values());
+    let number = |x: f64| among_others(x, place);
+    let extreme = |name: &str, of_cell: Option<f64>, figure: Figure| {
+        let cell = of_cell.map_or_else(|| "-".to_owned(), number);
+        let interval = match (figure.value, figure.half_width) {
+            (Some(value), Some(half_width)) if half_width > 0.0 => {
+                format!(" ({} to {})", number(value - half_width), number(value + half_width))
+            }
+            _ => String::new(),
+        };
+        format!("{name} {cell} lx{interval}")
+    };
     let piece = |name: &str, figure: Figure, unit: &str| {
         format!("{name} {}{unit}", figure_text(figure).joined())
     };
     let summary = &sensor.summary;
     vec![
         piece("average", summary.average_lx, " lx"),
-        piece("minimum", summary.minimum_lx, " lx"),
-        piece("maximum", summary.maximum_lx, " lx"),
+        extreme("minimum", values().reduce(f64::min), summary.minimum_lx),
+        extreme("maximum", values().reduce(f64::max), summary.maximum_lx),
         piece("uniformity", summary.uniformity, ""),
     ]
 }
@@ -193,7 +209,7 @@ fn camera_facts(camera: &CameraReport) -> Vec<String> {
 fn method(report: &Report, samples: &RangeInclusive<u64>) -> String {
     let run = &report.run;
     format!(
-        "quasilux {}: {}, {}, {}, {} x {} samples, {} % intervals",
+        "quasilux {}: {}, {}, {}, {} \u{d7} {} samples, {} % intervals",
         run.version,
         run.settings.estimator.name(),
         run.settings.sequence.name(),
@@ -263,11 +279,28 @@ mod tests {
         assert_ne!(png(&report, &lit), plain);
     }
 
+    /// The cell of the smallest value says 412, the middle of the interval of the true minimum is
+    /// 411.4: the heading begins with the number of the cell.
+    #[test]
+    fn the_heading_has_the_numbers_of_the_cells() {
+        let mut sensor = office().sensors[0].clone();
+        for (k, point) in sensor.points.iter_mut().enumerate() {
+            point.illuminance_lx.value = Some(411.51 + 100.0 * k as f64);
+        }
+        sensor.summary.minimum_lx = Figure { value: Some(411.4), half_width: Some(3.2) };
+        let facts = sensor_facts(&sensor);
+        assert_eq!(facts[1], "minimum 412 lx (408 to 415)");
+        let most = 411.51 + 100.0 * (sensor.points.len() - 1) as f64;
+        assert!(facts[2].starts_with(&format!("maximum {most:.0} lx")), "{}", facts[2]);
+        sensor.summary.minimum_lx.half_width = None;
+        assert_eq!(sensor_facts(&sensor)[1], "minimum 412 lx");
+    }
+
     #[test]
     fn captions_say_how_the_values_were_made() {
         let mut report = office();
         let made = method(&report, &samples(&report.sensors[0]));
-        assert!(made.ends_with("16 x 65 536 samples, 95 % intervals"), "{made}");
+        assert!(made.ends_with("16 \u{d7} 65 536 samples, 95 % intervals"), "{made}");
         assert_eq!(span(&(128..=2048)), "128 to 2 048");
         assert_eq!(caution(&report, true), "");
         assert!(caution(&report, false).contains("tolerance"));

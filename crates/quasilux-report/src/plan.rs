@@ -7,20 +7,21 @@ use quasilux_drawing::picture::{
     PlanPoints, Surfaces, Surroundings,
 };
 use quasilux_scene::light::{AreaLight, Luminaire};
-use quasilux_scene::{Camera, Light, Mesh, Scene, Sensor, SensorPoint, SensorShape};
+use quasilux_scene::{Camera, Light, Mesh, Opening, Scene, Sensor, SensorPoint, SensorShape};
 
 /// The plan and two elevations of a scene with lights, sensors and cameras. `marks` are red
 /// balloons with a number at their places; their texts are listed below.
 #[must_use]
 pub fn plan(scene: &Scene, title: &str, marks: &[PlanMark]) -> Drawing {
     let lights = Lights::new(scene);
-    let Surroundings { surfaces, luminaires, point_lights_m, area_lights } =
+    let Surroundings { surfaces, luminaires, point_lights_m, area_lights, openings_m, .. } =
         lights.surroundings(scene);
     let points: Vec<NamedPoints<'_>> = scene.sensors.iter().filter_map(named_points).collect();
     let named = points.iter().map(|NamedPoints { name, points }| PlanPoints { name, points });
     picture::plan(&PlanPicture {
         title,
         surfaces,
+        openings_m,
         area_lights,
         luminaires,
         point_lights_m,
@@ -32,17 +33,26 @@ pub fn plan(scene: &Scene, title: &str, marks: &[PlanMark]) -> Drawing {
     })
 }
 
-/// The lights of a scene, each kind in its order.
+/// The lights of a scene, each kind in its order, and where daylight comes in.
 pub(crate) struct Lights<'a> {
     luminaires: Vec<PlanLuminaire>,
     point_lights_m: Vec<DVec3>,
     area_lights: Vec<PlanAreaLight<'a>>,
+    openings_m: Vec<[DVec3; 4]>,
+    /// Of each material, whether light goes through it.
+    lets_through: Vec<bool>,
 }
 
 impl<'a> Lights<'a> {
     pub(crate) fn new(scene: &'a Scene) -> Self {
-        let mut lights =
-            Self { luminaires: Vec::new(), point_lights_m: Vec::new(), area_lights: Vec::new() };
+        let openings = scene.environment.iter().flat_map(|outside| &outside.openings);
+        let mut lights = Self {
+            luminaires: Vec::new(),
+            point_lights_m: Vec::new(),
+            area_lights: Vec::new(),
+            openings_m: openings.map(corners).collect(),
+            lets_through: scene.materials.iter().map(|it| it.bsdf.transmits()).collect(),
+        };
         for light in &scene.lights {
             match light {
                 Light::Luminaire(light) => lights.luminaires.push(luminaire(light)),
@@ -55,14 +65,27 @@ impl<'a> Lights<'a> {
 
     /// The lights, and the surfaces of the scene.
     pub(crate) fn surroundings(&'a self, scene: &'a Scene) -> Surroundings<'a> {
-        let Mesh { positions, triangles, .. } = &scene.mesh;
+        let Mesh { positions, triangles, material_of, .. } = &scene.mesh;
         Surroundings {
-            surfaces: Surfaces { positions_m: positions, triangles },
+            surfaces: Surfaces {
+                positions_m: positions,
+                triangles,
+                material_of,
+                lets_through: &self.lets_through,
+            },
             luminaires: &self.luminaires,
             point_lights_m: &self.point_lights_m,
             area_lights: &self.area_lights,
+            openings_m: &self.openings_m,
+            north_deg: scene.environment.as_ref().map(|outside| outside.north_deg),
         }
     }
+}
+
+/// The corners of an opening in turn.
+fn corners(opening: &Opening) -> [DVec3; 4] {
+    let &Opening { origin, u, v } = opening;
+    [origin, origin + u, origin + u + v, origin + v]
 }
 
 struct NamedPoints<'a> {

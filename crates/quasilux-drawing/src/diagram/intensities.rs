@@ -1,12 +1,11 @@
 //! A luminaire's intensities over gamma: the polar diagram of data sheets, and a Cartesian one.
 
 use super::curve::IntensityCurve;
-use super::legend::{self, LegendEntry, Rows};
+use super::head::Head;
+use super::legend::{LegendEntry, Rows};
 use super::polar::{Extent, Polar, Zero};
 use super::{Axis, Line, Panel, Scale};
 use crate::drawing::{Drawing, Frame};
-use crate::style::{Anchor, GREY, INK, TextStyle};
-use crate::text::fitted;
 
 /// Intensities to be drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -61,17 +60,19 @@ pub fn intensities(intensities: &Intensities<'_>) -> Drawing {
     let title = format!("{}, {}", intensities.title, intensities.subtitle);
     let entries = legend_entries(curves);
     let legend = Rows::within(width, &entries);
-    let below = HEAD_PX + height + LEGEND_PX + legend.more_px();
+    let head = Head::within(width, [intensities.title, intensities.subtitle]);
+    let top_px = HEAD_PX + head.more_px();
+    let below = top_px + height + LEGEND_PX + legend.more_px();
     let mut drawing = Drawing::new(&title, [width + 2.0 * MARGIN_PX, below + MARGIN_PX]);
-    draw_head(&mut drawing, [intensities.title, intensities.subtitle], width);
+    head.draw(&mut drawing, MARGIN_PX + 4.0);
     let mut x = MARGIN_PX;
     if diagram != Diagram::Cartesian {
-        polar.draw(&mut drawing, [x, HEAD_PX + 0.5 * (height - polar_height)]);
+        polar.draw(&mut drawing, [x, top_px + 0.5 * (height - polar_height)]);
         x += polar_width;
     }
     if diagram != Diagram::Polar {
         let size_px = panel_size(height - top - bottom);
-        panel(curves).draw(&mut drawing, Frame { corner_px: [x + left, HEAD_PX + top], size_px });
+        panel(curves).draw(&mut drawing, Frame { corner_px: [x + left, top_px + top], size_px });
     }
     legend.draw(&mut drawing, [MARGIN_PX + 4.0, below - 10.0]);
     drawing
@@ -88,15 +89,6 @@ fn panel(curves: &[IntensityCurve]) -> Panel {
         x: Axis::new("gamma / \u{b0}", Scale::Linear, [-end_deg, end_deg]).with_step(end_deg / 3.0),
         y: Axis::new("", Scale::Linear, [0.0, high]),
         lines: curves.iter().map(line).collect(),
-    }
-}
-
-/// A title, and what stands below it, smaller.
-pub(super) fn draw_head(drawing: &mut Drawing, [title, subtitle]: [&str; 2], width_px: f64) {
-    for (y, size_px, colour, text) in [(26.0, 16.0, INK, title), (46.0, 12.0, GREY, subtitle)] {
-        let style = TextStyle::new(size_px, colour, Anchor::Start);
-        let text = fitted(text, size_px, width_px / legend::WIDER);
-        drawing.text([MARGIN_PX + 4.0, y], style, &text);
     }
 }
 

@@ -2,7 +2,8 @@
 //! side of the light up.
 
 use super::curve::IntensityCurve;
-use super::intensities::{HEAD_PX, LEGEND_PX, MARGIN_PX, draw_head, legend_entries};
+use super::head::Head;
+use super::intensities::{HEAD_PX, LEGEND_PX, MARGIN_PX, legend_entries};
 use super::legend::Rows;
 use super::polar::{Polar, Zero};
 use crate::drawing::Drawing;
@@ -47,15 +48,17 @@ pub fn lobes(title: &str, diagrams: &[LobeDiagram]) -> Drawing {
         None => vec![],
     };
     let legend = Rows::within(width, &entries);
-    let below = HEAD_PX + TITLE_PX + height + LEGEND_PX + legend.more_px();
+    let head = Head::within(width, [title, SUBTITLE]);
+    let top_px = HEAD_PX + head.more_px();
+    let below = top_px + TITLE_PX + height + LEGEND_PX + legend.more_px();
     let size_px = [width.max(1.0) + 2.0 * MARGIN_PX, below + MARGIN_PX];
     let mut drawing = Drawing::new(&format!("{title}: {SUBTITLE}"), size_px);
-    draw_head(&mut drawing, [title, SUBTITLE], width);
+    head.draw(&mut drawing, MARGIN_PX + 4.0);
     let style = TextStyle { colour: GREY, ..TextStyle::plain(Anchor::Middle) };
     let mut x = MARGIN_PX;
     for ((diagram, polar), [width, own_height]) in diagrams.iter().zip(&polars).zip(sizes) {
-        let top = HEAD_PX + TITLE_PX + 0.5 * (height - own_height);
-        drawing.text([x + 0.5 * width, HEAD_PX + 8.0], style, &diagram.title);
+        let top = top_px + TITLE_PX + 0.5 * (height - own_height);
+        drawing.text([x + 0.5 * width, top_px + 8.0], style, &diagram.title);
         polar.draw(&mut drawing, [x, top]);
         x += width;
     }

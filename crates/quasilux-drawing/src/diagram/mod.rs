@@ -9,6 +9,7 @@
 mod axis;
 mod curve;
 mod figure;
+mod head;
 mod intensities;
 mod legend;
 mod lobes;
@@ -98,6 +99,33 @@ mod tests {
                 }
             }
         }
+    }
+
+    /// A long name of a luminaire is written whole, above the diagram.
+    #[test]
+    fn long_titles_take_more_lines() {
+        let name = "RECESSED LUMINAIRE WITH A METAL ENCLOSURE, WHITE PAINTED REFLECTOR AND LOUVRE";
+        let lines = |title: &str| {
+            let drawing = intensities(&Intensities {
+                title,
+                subtitle: "1000 lm",
+                curves: &[],
+                per_klm: None,
+                sides: ["", ""],
+                diagram: Diagram::Polar,
+            });
+            let texts = drawing.shapes.iter().filter_map(|shape| match shape {
+                Shape::Text { style, text, .. } if style.colour == crate::style::INK => {
+                    Some(text.clone())
+                }
+                _ => None,
+            });
+            (texts.collect::<Vec<_>>(), drawing.size_px)
+        };
+        let ((one, short), (several, long)) = (lines("lamp"), lines(name));
+        assert!(one.contains(&"lamp".to_owned()));
+        assert!(several.join(" ").contains(name), "{several:?}");
+        assert!(long[0] == short[0] && long[1] > short[1]);
     }
 
     /// What a legend needs more than the sheet is wide goes into further rows, for which there is

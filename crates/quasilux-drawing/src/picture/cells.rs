@@ -4,6 +4,9 @@ use super::caption::Caption;
 use super::plan::{PlanAreaLight, PlanLuminaire, Plane, Surfaces};
 use glam::DVec3;
 
+/// A grid is level where its normal's part along z is more than this.
+const LEVEL: f64 = 0.9;
+
 /// A grid to be drawn in false colours.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct GridPicture<'a> {
@@ -41,6 +44,10 @@ pub struct Surroundings<'a> {
     pub point_lights_m: &'a [DVec3],
     /// Luminous surfaces.
     pub area_lights: &'a [PlanAreaLight<'a>],
+    /// Openings to the outside, the corners of each in turn.
+    pub openings_m: &'a [[DVec3; 4]],
+    /// Where north is, if it is known: degrees from +y, counter-clockwise seen from above.
+    pub north_deg: Option<f64>,
 }
 
 /// The value of one cell, as far as it is known.
@@ -61,6 +68,11 @@ impl GridPicture<'_> {
     /// Unit directions of both edges.
     pub(super) fn directions(&self) -> [DVec3; 2] {
         [self.u_m, self.v_m].map(|edge| DVec3::from(edge).normalize_or_zero())
+    }
+
+    /// Whether its picture is a plan.
+    pub(super) fn is_level(&self) -> bool {
+        self.plane().normal.z.abs() > LEVEL
     }
 
     /// The plane of the grid; above it is where its picture is seen from.

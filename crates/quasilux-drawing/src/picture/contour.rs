@@ -1,4 +1,5 @@
-//! Contour lines of a field known at the nodes of a rectangular lattice: marching squares.
+//! Contour lines of a field known at the nodes of a rectangular lattice: marching squares, on a
+//! finer lattice with smooth values between the known ones.
 //!
 //! A line crosses a lattice edge where the linear interpolation along the edge equals the level.
 //! Where a square's corners are above and below in turn (a saddle), the mean of the four, which is
@@ -44,27 +45,20 @@ impl Field {
         Self { x: nodes(columns), y: nodes(rows), values: values.collect() }
     }
 
-    /// The same bilinear field on a lattice with every square cut into `pieces` times `pieces`.
+    /// A field on a lattice with every square cut into `pieces` times `pieces`: through the same
+    /// values at the nodes, and smooth along rows and columns.
     pub(crate) fn refined(&self, pieces: usize) -> Self {
-        let finer = |nodes: &[f64]| -> Vec<(usize, f64)> {
-            let parts = (0..nodes.len() - 1)
-                .flat_map(|i| (0..pieces).map(move |k| (i, k as f64 / pieces as f64)));
-            parts.chain([(nodes.len() - 2, 1.0)]).collect()
-        };
-        let (x, y) = (finer(&self.x), finer(&self.y));
-        let place = |nodes: &[f64], at: &[(usize, f64)]| -> Vec<f64> {
-            at.iter().map(|&(i, t)| nodes[i] + (nodes[i + 1] - nodes[i]) * t).collect()
-        };
         let columns = self.x.len();
-        let at = |i: usize, j: usize| self.values[j * columns + i];
-        let values = y.iter().flat_map(|&(j, t)| {
-            x.iter().map(move |&(i, s)| {
-                let low = at(i, j) + (at(i + 1, j) - at(i, j)) * s;
-                let high = at(i, j + 1) + (at(i + 1, j + 1) - at(i, j + 1)) * s;
-                low + (high - low) * t
-            })
-        });
-        Self { values: values.collect(), x: place(&self.x, &x), y: place(&self.y, &y) }
+        let rows: Vec<Vec<f64>> =
+            self.values.chunks(columns).map(|row| finer(&self.x, row, pieces)).collect();
+        let (x, y) = (finer(&self.x, &self.x, pieces), finer(&self.y, &self.y, pieces));
+        let column = |i: usize| {
+            let values: Vec<f64> = rows.iter().map(|row| row[i]).collect();
+            finer(&self.y, &values, pieces)
+        };
+        let of_columns: Vec<Vec<f64>> = (0..x.len()).map(column).collect();
+        let values = (0..y.len()).flat_map(|j| of_columns.iter().map(move |it| it[j]));
+        Self { values: values.collect(), x, y }
     }
 
     /// The lines on which the field has a level, in a fixed order.
@@ -153,6 +147,45 @@ impl Field {
     }
 }
 
+/// Values at the nodes and between them, each interval in so many pieces: cubic, with the slopes at
+/// the nodes of H. Akima (Journal of the ACM 17, 1970), who weights those on both sides by how much
+/// the others bend, so that a step does not swing. Next to a hole the slope is that of the
+/// interval.
+fn finer(nodes: &[f64], values: &[f64], pieces: usize) -> Vec<f64> {
+    let last = nodes.len() - 1;
+    let length = |i: usize| nodes[i + 1] - nodes[i];
+    let rises: Vec<f64> = (0..last).map(|i| (values[i + 1] - values[i]) / length(i)).collect();
+    // Of node `at` for the interval `i` beside it.
+    let slope = |at: usize, i: usize| {
+        if at == 0 || at == last {
+            return rises[i];
+        }
+        let [before, behind] = [rises[at - 1], rises[at]];
+        let bends_before = if at > 1 { (before - rises[at - 2]).abs() } else { 0.0 };
+        let bends_behind = if at + 1 < last { (rises[at + 1] - behind).abs() } else { 0.0 };
+        let sum = bends_before + bends_behind;
+        let slope = if sum > 0.0 {
+            (bends_behind * before + bends_before * behind) / sum
+        } else {
+            0.5 * (before + behind)
+        };
+        if slope.is_nan() { rises[i] } else { slope }
+    };
+    let between = |i: usize, k: usize| {
+        let t = k as f64 / pieces as f64;
+        let rise = values[i + 1] - values[i];
+        let [from, to] = [slope(i, i), slope(i + 1, i)].map(|slope| slope * length(i));
+        // The straight line, and what the slopes at both ends differ from it.
+        let bend = (from - rise) * (1.0 - t) - (to - rise) * t;
+        values[i] + rise * t + bend * t * (1.0 - t)
+    };
+    let inner = |i: usize| {
+        let between = &between;
+        std::iter::once(values[i]).chain((1..pieces).map(move |k| between(i, k)))
+    };
+    (0..last).flat_map(inner).chain([values[last]]).collect()
+}
+
 /// Values at cell centres with one more at either end, half a cell further on the straight line
 /// through the two nearest ones; a hole or the lack of a second value leaves the nearest one.
 fn extended(centres: impl Iterator<Item = f64>) -> Vec<f64> {
@@ -209,6 +242,46 @@ mod tests {
                 assert!((length / (2.0 * std::f64::consts::PI * radius) - 1.0).abs() < 0.02);
             }
         }
+    }
+
+    /// At a row of known values lines have no kinks: a line turns there by no more than elsewhere.
+    #[test]
+    fn lines_bend_smoothly() {
+        let dome = |x: f64, y: f64| 500.0 / (1.0 + 0.08 * (x - 4.0) * (x - 4.0) + 0.05 * y * y);
+        let turns = |field: &Field| {
+            let turn = |w: &[DVec2]| (w[1] - w[0]).angle_to(w[2] - w[1]).abs();
+            let lines = field.contours(250.0);
+            // Lines of even steps: short ones between two edges of the lattice turn by chance.
+            let spaced = lines.into_iter().map(|line| {
+                let mut kept = vec![line[0]];
+                for point in line {
+                    if point.distance(kept[kept.len() - 1]) > 0.3 {
+                        kept.push(point);
+                    }
+                }
+                kept
+            });
+            spaced
+                .flat_map(|line| line.windows(3).map(turn).collect::<Vec<_>>())
+                .fold(0.0, f64::max)
+        };
+        let coarse = field([8, 6], dome);
+        let (kinked, smooth) = (turns(&coarse), turns(&coarse.refined(12)));
+        assert!(smooth < 0.25 && kinked > 1.5 * smooth, "{kinked} and {smooth}");
+    }
+
+    /// A step does not swing, and holes stay holes.
+    #[test]
+    fn finer_values_neither_swing_nor_fill_holes() {
+        let nodes: Vec<f64> = (0..8).map(f64::from).collect();
+        let step = [1.0, 1.0, 1.0, 1.0, 30.0, 30.0, 30.0, 30.0];
+        for value in finer(&nodes, &step, 7) {
+            assert!((1.0 - 1e-9..30.0 + 1e-9).contains(&value), "{value}");
+        }
+        let mut hole = step;
+        hole[1] = f64::NAN;
+        let values = finer(&nodes, &hole, 2);
+        assert_eq!(values.iter().filter(|value| value.is_nan()).count(), 3);
     }
 
     #[test]

@@ -1,18 +1,16 @@
 //! The words and the colour scale around every false-colour picture.
 
-use super::caption::Caption;
 use super::colour_map::{self, CAUTION_INK};
 use super::layout::{self, Layout, capital_px};
+use super::words::Words;
 use crate::drawing::{Drawing, Frame};
 use crate::style::{Anchor, Colour, Dash, GREY, INK, Stroke, TextStyle, WHITE};
-use crate::text::{fitted, width_px};
+use crate::text::width_px;
 use crate::ticks::Tick;
 
 /// Colour of what is wanted.
 pub(crate) const TARGET_INK: Colour = [0xc4, 0x00, 0x1e];
 
-/// The largest share of a picture's width for the name of what it belongs to.
-const MAX_PROJECT_SHARE: f64 = 0.4;
 /// Digits of a target in texts.
 pub(crate) const TARGET_DIGITS: i32 = 4;
 
@@ -36,22 +34,22 @@ pub(crate) struct LegendTarget {
 }
 
 /// A sheet for a picture, with the title and the figures under it.
-pub(crate) fn titled(layout: &Layout, caption: &Caption<'_>) -> Drawing {
-    let mut drawing = Drawing::new(caption.title, layout.size.map(|n| n as f64));
-    let left = layout.content_left();
-    let width = layout.content_width();
-    let project = fitted(caption.project, layout::SUMMARY_PX, MAX_PROJECT_SHARE * width);
-    let taken =
-        if project.is_empty() { 0.0 } else { width_px(&project, layout::SUMMARY_PX) + 30.0 };
-    let fits = |px: &f64| width_px(caption.title, *px) <= width - taken;
-    let title_px = layout::TITLE_PX.into_iter().find(fits).unwrap_or(layout::TITLE_PX[2]);
-    let title = fitted(caption.title, title_px, width - taken);
-    let style = TextStyle::new(title_px, INK, Anchor::Start);
-    drawing.text([left, layout.title_base()], style, &title);
+pub(crate) fn titled(layout: &Layout, title: &str) -> Drawing {
+    let mut drawing = Drawing::new(title, layout.size.map(|n| n as f64));
+    let (left, words) = (layout.content_left(), &layout.words);
+    let right = left + layout.content_width();
+    let style = TextStyle::new(words.title_px, INK, Anchor::Start);
+    for (k, line) in words.title.iter().enumerate() {
+        let base = layout.title_base() + k as f64 * words.title_line_px();
+        drawing.text([left, base], style, line);
+    }
     let style = TextStyle::new(layout::SUMMARY_PX, GREY, Anchor::End);
-    drawing.text([left + width, layout.title_base()], style, &project);
+    for (k, line) in words.project.iter().enumerate() {
+        let base = layout.title_base() + k as f64 * Words::project_line_px();
+        drawing.text([right, base], style, line);
+    }
     let style = TextStyle::new(layout::SUMMARY_PX, INK, Anchor::Start);
-    for (k, line) in layout.summary_lines.iter().enumerate() {
+    for (k, line) in words.facts.iter().enumerate() {
         drawing.text([left, layout.summary_base(k)], style, line);
     }
     drawing
@@ -112,11 +110,12 @@ pub(crate) fn target_line(drawing: &mut Drawing, points_px: &[[f64; 2]]) {
 }
 
 /// Draws how the numbers were made, and what restricts them.
-pub(crate) fn draw_footer(drawing: &mut Drawing, layout: &Layout, caption: &Caption<'_>) {
-    let lines: [(&str, Colour); 2] = [(caption.method, GREY), (caption.caution, CAUTION_INK)];
-    for (k, (line, colour)) in lines.into_iter().enumerate() {
-        let line = fitted(line, layout::SMALL_PX, layout.content_width());
+pub(crate) fn draw_footer(drawing: &mut Drawing, layout: &Layout) {
+    let words = &layout.words;
+    let method = words.method.iter().map(|line| (line, GREY));
+    let lines = method.chain(words.caution.iter().map(|line| (line, CAUTION_INK)));
+    for (k, (line, colour)) in lines.enumerate() {
         let style = TextStyle::new(layout::SMALL_PX, colour, Anchor::Start);
-        drawing.text([layout.content_left(), layout.footer_base(k)], style, &line);
+        drawing.text([layout.content_left(), layout.footer_base(k)], style, line);
     }
 }

@@ -5,6 +5,7 @@ use super::caption::Caption;
 use super::cells::GridPicture;
 use super::frame::{self, Legend, LegendTarget, TARGET_DIGITS};
 use super::layout::{self, Layout};
+use super::plan::north;
 use super::plot;
 use super::scale::ValueScale;
 use super::window::Window;
@@ -12,8 +13,10 @@ use crate::drawing::Drawing;
 use crate::number::brief;
 use crate::style::{Anchor, GREY, Stroke, TextStyle};
 use crate::text::width_px;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
+/// The middle of the pointer to the north, from the upper right corner of the content.
+const NORTH_PX: DVec2 = DVec2::new(34.0, 42.0);
 const TICK: Stroke = Stroke::solid(GREY, 1.0);
 
 /// Draws a grid in false colours.
@@ -27,10 +30,14 @@ pub fn grid(grid: &GridPicture<'_>) -> Drawing {
     let shared = if grid.scale_cells.is_empty() { grid.cells } else { grid.scale_cells };
     let scale = ValueScale::from_cells(shared);
     let window = Window::new(grid);
-    let layout = Layout::of_window(&window, grid.edges_m().into(), grid.caption.facts);
-    let mut drawing = frame::titled(&layout, &grid.caption);
+    let kind = if scale.is_logarithmic() { ", logarithmic scale" } else { "" };
+    let method = format!("{}{kind}", grid.caption.method);
+    let caption = Caption { method: &method, ..grid.caption };
+    let layout = Layout::of_window(&window, grid.edges_m().into(), &caption);
+    let mut drawing = frame::titled(&layout, caption.title);
     plot::draw(&mut drawing, &layout, grid, &scale);
     draw_axes(&mut drawing, &layout, grid, &window);
+    draw_north(&mut drawing, &layout, grid);
     let levels = scale.levels.iter();
     let legend = Legend {
         unit: grid.unit,
@@ -39,9 +46,7 @@ pub fn grid(grid: &GridPicture<'_>) -> Drawing {
         target: grid.target.map(|target| legend_target(grid, &scale, target)),
     };
     frame::draw_legend(&mut drawing, &layout, &legend);
-    let kind = if scale.is_logarithmic() { ", logarithmic scale" } else { "" };
-    let method = format!("{}{kind}", grid.caption.method);
-    frame::draw_footer(&mut drawing, &layout, &Caption { method: &method, ..grid.caption });
+    frame::draw_footer(&mut drawing, &layout);
     drawing
 }
 
@@ -55,6 +60,20 @@ fn legend_target(grid: &GridPicture<'_>, scale: &ValueScale, target: f64) -> Leg
         grid.unit
     );
     LegendTarget { share: scale.holds(target).then(|| scale.share(target)), text }
+}
+
+/// Draws a pointer to the north beside a level grid of a project that knows it.
+fn draw_north(drawing: &mut Drawing, layout: &Layout, grid: &GridPicture<'_>) {
+    let Some(north_deg) = grid.surroundings.north_deg.filter(|_| grid.is_level()) else {
+        return;
+    };
+    let (sin, cos) = libm::sincos(north_deg.to_radians());
+    let to = DVec3::new(-sin, cos, 0.0);
+    let [u, v] = grid.directions();
+    let on_sheet = DVec2::new(to.dot(u), -to.dot(v)).normalize_or(DVec2::NEG_Y);
+    let right = layout.content_left() + layout.content_width();
+    let at = DVec2::new(right, layout.plot_corner[1] as f64) + NORTH_PX;
+    north(drawing, at, on_sheet, "N");
 }
 
 fn draw_axes(drawing: &mut Drawing, layout: &Layout, grid: &GridPicture<'_>, window: &Window) {
@@ -97,8 +116,9 @@ fn draw_axes(drawing: &mut Drawing, layout: &Layout, grid: &GridPicture<'_>, win
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::drawing::Shape;
     use crate::example::{Grid, batwing};
-    use crate::picture::Cell;
+    use crate::picture::{Cell, Surroundings};
 
     /// Decodes a picture: width, height and pixels.
     fn decoded(png: &[u8]) -> ([u32; 2], Vec<u8>) {
@@ -141,6 +161,34 @@ mod tests {
         for (x, y) in [(20, 20), (20, 880), (880, 880)] {
             assert_eq!(at(x, y), scale.colour(100.0));
         }
+    }
+
+    /// North turns counter-clockwise from +y; a grid may run along other directions.
+    #[test]
+    fn maps_point_to_the_north() {
+        let grid = Grid::new([5.0, 4.0], [10, 8], 0.01, batwing);
+        let way = |north_deg, u_m, v_m| {
+            let surroundings = Surroundings { north_deg, ..Surroundings::default() };
+            let picture = GridPicture { u_m, v_m, surroundings, ..grid.picture("workplane") };
+            let layout = Layout::new([5.0, 4.0], &grid.facts);
+            let right = layout.content_left() + layout.content_width();
+            let middle = DVec2::new(right, layout.plot_corner[1] as f64) + NORTH_PX;
+            super::grid(&picture).shapes.into_iter().find_map(|shape| match shape {
+                Shape::Text { place_px, text, .. } if text == "N" => {
+                    Some((DVec2::from(place_px) - DVec2::Y * 5.0 - middle).normalize())
+                }
+                _ => None,
+            })
+        };
+        let (x, y, z) = ([5.0, 0.0, 0.0], [0.0, 4.0, 0.0], [0.0, 0.0, 4.0]);
+        for (north_deg, to) in [(0.0, [0.0, -1.0]), (90.0, [-1.0, 0.0]), (-90.0, [1.0, 0.0])] {
+            let found = way(Some(north_deg), x, y).expect("a pointer");
+            assert!(found.distance(DVec2::from(to)) < 0.02, "{north_deg}: {found}");
+        }
+        let turned = way(Some(0.0), [0.0, 5.0, 0.0], [-4.0, 0.0, 0.0]).expect("a pointer");
+        assert!(turned.distance(DVec2::X) < 0.02, "{turned}");
+        assert_eq!(way(None, x, y), None);
+        assert_eq!(way(Some(0.0), x, z), None);
     }
 
     #[test]

@@ -1,17 +1,12 @@
 //! Where everything lies in a picture. All lengths in pixels.
 
+use super::caption::Caption;
 use super::window::Window;
+use super::words::Words;
+pub(crate) use super::words::{SMALL_PX, SUMMARY_PX};
 use crate::drawing::Frame;
 use crate::font::CAPITAL_EM;
-use crate::text::width_px;
 use glam::DVec2;
-
-/// Font sizes of the title, the largest that fits is taken.
-pub(crate) const TITLE_PX: [f64; 3] = [28.0, 22.0, 17.0];
-/// Font size of the figures under it.
-pub(crate) const SUMMARY_PX: f64 = 15.5;
-/// Font size of numbers on axes and legend.
-pub(crate) const SMALL_PX: f64 = 12.6;
 
 /// Longer side of the plot.
 const PLOT_LONG: f64 = 900.0;
@@ -26,7 +21,6 @@ const LEFT: usize = 72;
 const RIGHT: usize = 64;
 const TOP: usize = 30;
 const TITLE: usize = 20;
-const SUMMARY_GAP: &str = "     ";
 const SUMMARY_LINE: usize = 22;
 const BELOW_PLOT: usize = 62;
 const BELOW_PICTURE: usize = 22;
@@ -44,65 +38,69 @@ pub(crate) struct Layout {
     grid_shares: [DVec2; 2],
     pub(crate) legend_corner: [usize; 2],
     pub(crate) legend_size: [usize; 2],
-    pub(crate) summary_lines: Vec<String>,
+    pub(crate) words: Words,
     content_width: usize,
 }
 
 impl Layout {
     /// The layout for a grid that its plot is filled with.
     #[cfg(test)]
-    pub(crate) fn new(edges_m: [f64; 2], summary: &[String]) -> Self {
-        Self::with_axes(edges_m, PLOT_LONG, summary)
+    pub(crate) fn new(edges_m: [f64; 2], facts: &[String]) -> Self {
+        Self::with_axes(edges_m, PLOT_LONG, &Caption { facts, ..Caption::default() })
     }
 
-    /// The layout for a rectangle with these edges; `summary` is broken into lines between its
-    /// pieces.
-    fn with_axes([u_m, v_m]: [f64; 2], long_px: f64, summary: &[String]) -> Self {
+    /// The layout for a rectangle with these edges.
+    fn with_axes([u_m, v_m]: [f64; 2], long_px: f64, caption: &Caption<'_>) -> Self {
         let px_per_m = long_px / u_m.max(v_m);
         let plot_size =
             [u_m, v_m].map(|edge_m| (edge_m * px_per_m).round().max(PLOT_SHORT_LEAST) as usize);
-        Self::around(plot_size, BELOW_PLOT, summary)
+        Self::around(plot_size, BELOW_PLOT, caption)
     }
 
     /// The layout of a plot that shows a window around its grid; larger where the grid takes little
     /// of it.
-    pub(crate) fn of_window(window: &Window, grid_m: DVec2, summary: &[String]) -> Self {
+    pub(crate) fn of_window(window: &Window, grid_m: DVec2, caption: &Caption<'_>) -> Self {
         let size_m = window.size_m();
         let grid_shares = [-window.low_m, grid_m - window.low_m].map(|place| place / size_m);
         let long_px = MIN_GRID_LONG * size_m.max_element() / grid_m.max_element();
         let long_px = long_px.clamp(PLOT_LONG, MAX_PLOT_LONG);
-        Self { grid_shares, ..Self::with_axes(size_m.to_array(), long_px, summary) }
+        Self { grid_shares, ..Self::with_axes(size_m.to_array(), long_px, caption) }
     }
 
     /// The layout around a picture of this size without axes.
-    pub(crate) fn without_axes(plot_size: [usize; 2], summary: &[String]) -> Self {
-        let mut layout = Self::around(plot_size, BELOW_PICTURE, summary);
+    pub(crate) fn without_axes(plot_size: [usize; 2], caption: &Caption<'_>) -> Self {
+        let mut layout = Self::around(plot_size, BELOW_PICTURE, caption);
         layout.plot_corner[0] = LEFT;
         layout
     }
 
     /// The layout around a picture of this size with axes.
-    pub(crate) fn with_axes_around(plot_size: [usize; 2], summary: &[String]) -> Self {
-        Self::around(plot_size, BELOW_PLOT, summary)
+    pub(crate) fn with_axes_around(plot_size: [usize; 2], caption: &Caption<'_>) -> Self {
+        Self::around(plot_size, BELOW_PLOT, caption)
     }
 
-    fn around(plot_size: [usize; 2], below_plot: usize, summary: &[String]) -> Self {
+    fn around(plot_size: [usize; 2], below_plot: usize, caption: &Caption<'_>) -> Self {
         let content_width = plot_size[0].max(CONTENT_LEAST);
-        let summary_lines = wrapped(summary, content_width as f64);
-        let plot_top = TOP + TITLE + 18 + SUMMARY_LINE * summary_lines.len() + 10;
+        let words = Words::new(caption, content_width as f64);
+        let more_px = words.head_more_px() as usize;
+        let plot_top = TOP + TITLE + more_px + 18 + SUMMARY_LINE * words.facts.len() + 10;
         let plot_corner = [LEFT + (content_width - plot_size[0]) / 2, plot_top];
         let legend_top = plot_top + plot_size[1] + below_plot;
         Self {
             size: [
                 LEFT + content_width + RIGHT,
-                legend_top + LEGEND_HEIGHT + BELOW_LEGEND + 2 * FOOTER_LINE + BOTTOM,
+                legend_top
+                    + LEGEND_HEIGHT
+                    + BELOW_LEGEND
+                    + FOOTER_LINE * words.footer_lines()
+                    + BOTTOM,
             ],
             plot_corner,
             plot_size,
             grid_shares: [DVec2::ZERO, DVec2::ONE],
             legend_corner: [LEFT, legend_top],
             legend_size: [content_width, LEGEND_HEIGHT],
-            summary_lines,
+            words,
             content_width,
         }
     }
@@ -139,7 +137,7 @@ impl Layout {
     }
 
     pub(crate) fn summary_base(&self, line: usize) -> f64 {
-        self.title_base() + (29 + SUMMARY_LINE * line) as f64
+        self.title_base() + self.words.head_more_px() + (29 + SUMMARY_LINE * line) as f64
     }
 
     pub(crate) fn footer_base(&self, line: usize) -> f64 {
@@ -157,22 +155,6 @@ pub(crate) fn capital_px(size_px: f64) -> f64 {
     CAPITAL_EM * size_px
 }
 
-/// Joins pieces of text into lines of at most a width.
-fn wrapped(pieces: &[String], most_px: f64) -> Vec<String> {
-    let mut lines: Vec<String> = Vec::new();
-    for piece in pieces {
-        if let Some(last) = lines.last_mut() {
-            let longer = format!("{last}{SUMMARY_GAP}{piece}");
-            if width_px(&longer, SUMMARY_PX) <= most_px {
-                *last = longer;
-                continue;
-            }
-        }
-        lines.push(piece.clone());
-    }
-    lines
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -182,16 +164,5 @@ mod tests {
         assert_eq!(Layout::new([6.0, 5.0], &[]).plot_size, [900, 750]);
         assert_eq!(Layout::new([0.05, 0.06], &[]).plot_size, [750, 900]);
         assert_eq!(Layout::new([50.0, 2.0], &[]).plot_size, [900, 36]);
-    }
-
-    #[test]
-    fn summary_wraps_between_its_pieces() {
-        let pieces = ["average 500 lx", "minimum 200 lx"].map(str::to_owned);
-        assert_eq!(Layout::new([1.0, 1.0], &pieces).summary_lines.len(), 1);
-        let many = vec![pieces; 6].concat();
-        let lines = Layout::new([1.0, 50.0], &many).summary_lines;
-        assert_eq!(lines.len(), 3);
-        assert!(lines.iter().all(|l| width_px(l, SUMMARY_PX) <= CONTENT_LEAST as f64));
-        assert_eq!(lines.join(SUMMARY_GAP), many.join(SUMMARY_GAP));
     }
 }

@@ -27,13 +27,13 @@ pub fn luminance(picture: &LuminancePicture<'_>) -> Drawing {
     let scale = LuminanceScale::new(picture.luminances_cd_m2);
     let [width, height] = picture.resolution.map(|n| n as usize);
     let zoom = (LONG_PX / width.max(height)).max(1);
-    let layout = Layout::without_axes([zoom * width, zoom * height], picture.caption.facts);
-    let mut drawing = frame::titled(&layout, &picture.caption);
+    let layout = Layout::without_axes([zoom * width, zoom * height], &picture.caption);
+    let mut drawing = frame::titled(&layout, picture.caption.title);
     let luminances = picture.luminances_cd_m2.iter();
     let colours = luminances.map(|luminance| scale.colour(f64::from(*luminance))).collect();
     drawing.cells(layout.plot(), width, colours);
     frame::draw_legend(&mut drawing, &layout, &scale.legend());
-    frame::draw_footer(&mut drawing, &layout, &picture.caption);
+    frame::draw_footer(&mut drawing, &layout);
     drawing
 }
 
@@ -60,7 +60,7 @@ mod tests {
         let luminance = |i: u16| if i < 30 { 200.0 } else { 1.0 + f32::from(i % 30) };
         let luminances: Vec<f32> = (0..600).map(luminance).collect();
         let (size, pixels) = decoded(&png([30, 20], &luminances));
-        let layout = Layout::without_axes([990, 660], &[]);
+        let layout = Layout::without_axes([990, 660], &Caption::default());
         assert_eq!(size, layout.size);
         let at = |x: usize, y: usize| {
             let [left, top] = layout.plot_corner;

@@ -3,8 +3,8 @@
 //!
 //! The false-colour picture of a grid has flat cells in true proportion, contour lines at round
 //! values, the number of each cell where it fits, axes in metres and a legend. Cells show one
-//! computed value each; only the contour lines interpolate (bilinear between cell centres, linear
-//! beyond them up to the border).
+//! computed value each; only the contour lines interpolate (smoothly between cell centres, linearly
+//! beyond them up to the border), and leave out what may be noise.
 
 mod axis;
 mod caption;
@@ -28,8 +28,10 @@ mod plot;
 mod scale;
 mod series;
 mod sky;
+mod steady;
 mod tone_map;
 mod window;
+mod words;
 mod year;
 
 pub use caption::Caption;

@@ -2,7 +2,7 @@
 
 use super::layout::capital_px;
 use super::plan::Box;
-use crate::number::{decimal_exponent, to_place};
+use crate::number::{among_others, shared_place};
 use crate::text::width_px;
 use glam::DVec2;
 
@@ -22,9 +22,9 @@ pub(super) struct Numbers {
 impl Numbers {
     /// The numbers of some values, where all of them fit into cells of a size.
     pub(super) fn fitting(values: &[Option<f64>], cell_px: DVec2) -> Option<Self> {
-        let largest = values.iter().flatten().fold(0.0_f64, |a, b| a.max(b.abs()));
-        let place = decimal_exponent(largest).map_or(0, |e| e - 2).min(0);
-        let text = |value: &Option<f64>| value.map_or_else(|| "-".into(), |x| to_place(x, place));
+        let place = shared_place(values.iter().copied().flatten());
+        let number = |x: f64| among_others(x, place);
+        let text = |value: &Option<f64>| value.map_or_else(|| "-".into(), number);
         let texts: Vec<String> = values.iter().map(text).collect();
         let room = cell_px - 2.0 * MARGINS_PX;
         let fits = |px: &f64| {

@@ -1,10 +1,11 @@
 //! What stands around a grid, drawn over its false colours: lines in which its plane cuts surfaces,
-//! edges of what stands behind the plane, and the luminaires before it.
+//! edges of what stands behind the plane, windows, and the luminaires before it.
 
 use super::cells::{GridPicture, Surroundings};
 use super::layout::Layout;
 use super::plan::{
-    Bounds, Ink, Plane, Projection, TICK_PX, edges, opening, outlines, star, thinned,
+    Bounds, Ink, Plane, Projection, Scope, TICK_PX, WindowSet, WindowView, edges, opening,
+    outlines, star, thinned,
 };
 use crate::drawing::{Drawing, Frame};
 use crate::style::{Colour, Stroke, WHITE};
@@ -15,6 +16,8 @@ const DEPTH_M: f64 = 2.0;
 const DEPTH_SHARE: f64 = 0.4;
 /// Edges shorter than this are not looked at.
 const MIN_PX: f64 = 0.5;
+/// Width of the white line under outlines of windows.
+const HALO_PX: f64 = 3.0;
 const MAX_LINES: usize = 8000;
 const MAX_LUMINAIRES: usize = 1000;
 
@@ -75,6 +78,12 @@ fn draw_surfaces(
     let cut = thinned(surfaces.cut(plane).map(on_sheet), frame, MAX_LINES);
     drawing.lines(&cut, Stroke::solid(WHITE, 4.0));
     drawing.lines(&cut, Stroke::solid(CUT, 2.2));
+    let windows = WindowSet::new(surfaces, grid.surroundings.openings_m, &found);
+    let cut = (!grid.is_level()).then_some(plane);
+    let scope = Scope { cut, hair_m: 0.0 };
+    let windows = windows.seen(&WindowView { projection: *projection, frame, scope });
+    windows.draw_faces(drawing, frame, Some(HALO_PX));
+    windows.draw_lines(drawing);
 }
 
 /// Luminous surfaces and point lights before the plane.
@@ -123,21 +132,64 @@ fn draw_luminaires(drawing: &mut Drawing, grid: &GridPicture<'_>, projection: &P
 
 #[cfg(test)]
 mod tests {
-    use super::super::plan::fixtures::{luminaire, room};
+    use super::super::plan::fixtures::{Shell, luminaire, room, room_with_window, upright};
+    use super::super::plan::ink;
     use super::*;
     use crate::drawing::Shape;
     use crate::example::Grid;
 
     /// The ends of all lines of a colour over the plot.
     fn ends(shapes: &[Shape], colour: Colour) -> Vec<DVec2> {
+        ends_of(shapes, &|stroke| stroke.colour == colour)
+    }
+
+    /// The ends of all lines of some strokes.
+    fn ends_of(shapes: &[Shape], is_wanted: &dyn Fn(&Stroke) -> bool) -> Vec<DVec2> {
         let of = |shape: &Shape| match shape {
-            Shape::Lines { lines, stroke } if stroke.colour == colour => {
+            Shape::Lines { lines, stroke } if is_wanted(stroke) => {
                 lines.iter().flatten().map(|end| DVec2::from(*end)).collect()
             }
-            Shape::Clipped { shapes, .. } => ends(shapes, colour),
+            Shape::Clipped { shapes, .. } => ends_of(shapes, is_wanted),
             _ => Vec::new(),
         };
         shapes.iter().flat_map(of).collect()
+    }
+
+    /// A window in the wall to the south, whose sill is above the grid: a line of glass between two
+    /// faces of the wall. Without glass it is a gap, told by the hole or by its name.
+    #[test]
+    fn windows_above_the_grid_are_drawn_in_the_wall() {
+        let grid = Grid::new([5.0, 3.0], [5, 3], 0.0, |x, _| x);
+        let drawn = |shell: &Shell, openings_m: &[[DVec3; 4]]| {
+            let surfaces = shell.surfaces();
+            let surroundings = Surroundings { surfaces, openings_m, ..Surroundings::default() };
+            crate::picture::grid(&GridPicture { surroundings, ..grid.picture("workplane") })
+        };
+        let px_per_m = 900.0 / 6.18;
+        let frames = |drawing: &Drawing, stroke: Stroke| {
+            let ends = ends_of(&drawing.shapes, &|own| *own == stroke);
+            let wall = ends_of(&drawing.shapes, &|own| own.colour == CUT && own.width_px == 2.2);
+            let corner = wall.into_iter().reduce(|a, b| DVec2::new(a.x.min(b.x), a.y.max(b.y)));
+            let corner = corner.expect("a wall");
+            let place = |end: DVec2| (end - corner) / px_per_m;
+            ends.into_iter().map(place).collect::<Vec<_>>()
+        };
+        let is_window = |ends: &[DVec2]| {
+            let x = |pick: fn(f64, f64) -> f64| ends.iter().map(|end| end.x).reduce(pick);
+            assert!(ends.iter().all(|end| end.y.abs() < 0.01), "{ends:?}");
+            let [from, to] = [x(f64::min), x(f64::max)].map(|x| x.expect("a window"));
+            assert!((from - 2.0).abs() < 0.01 && (to - 4.0).abs() < 0.01, "{from} to {to}");
+        };
+        let glazed = drawn(&room_with_window(Some(1)), &[]);
+        is_window(&frames(&glazed, ink::WINDOW_WALL));
+        is_window(&frames(&glazed, ink::WINDOW_GLASS));
+        let named = upright(0.0, [2.0, 1.2], [4.0, 2.2]);
+        for gap in [drawn(&room_with_window(None), &[]), drawn(&room(), &[named])] {
+            is_window(&frames(&gap, ink::WINDOW_WALL));
+            assert!(frames(&gap, ink::WINDOW_GLASS).is_empty());
+        }
+        let walled = drawn(&room_with_window(Some(0)), &[]);
+        assert!(frames(&walled, ink::WINDOW_WALL).is_empty());
     }
 
     /// The grid of 5 m x 3 m begins at (0.5, 0.5, 0.8): its plane cuts the walls of 6 m x 4 m and

@@ -1,6 +1,6 @@
 //! The grid itself: cells, contour lines with their labels, and numbers in the cells.
 
-use super::cells::GridPicture;
+use super::cells::{Cell, GridPicture};
 use super::colour_map::ink_on;
 use super::contour::{Field, Line};
 use super::extremes::{Bordered, Extreme, Mark, extremes};
@@ -11,9 +11,10 @@ use super::numbers::Numbers;
 use super::overlay;
 use super::plan::Labels;
 use super::scale::{Level, ValueScale};
+use super::steady::steady;
 use crate::canvas::mix;
 use crate::drawing::{Drawing, Frame};
-use crate::number::brief;
+use crate::number::{among_others, brief, shared_place};
 use crate::style::{Anchor, Colour, GREY, Stroke, TextStyle, WHITE};
 use crate::text::width_px;
 use glam::DVec2;
@@ -152,7 +153,8 @@ impl Plot<'_> {
 
     /// Places the marks of the smallest and the largest value before all other texts.
     fn place_extremes(&self, boxes: &mut Labels) -> Vec<Mark> {
-        let found = extremes(&self.values, |value| brief(value, 3));
+        let place = shared_place(self.values.iter().copied().flatten());
+        let found = extremes(&self.values, |value| among_others(value, place));
         let mark = |extreme: &Extreme| {
             let centre = self.corner + self.centre(extreme.cell);
             let colour = self.colour_of(self.values[extreme.cell]);
@@ -167,20 +169,38 @@ impl Plot<'_> {
     }
 
     fn draw_contours(&self, drawing: &mut Drawing, grid: &GridPicture<'_>, texts: &mut Texts) {
-        let values: Vec<f64> = self.values.iter().map(|value| value.unwrap_or(f64::NAN)).collect();
+        let values = steady(self.counts, grid.cells);
         let pieces = (self.cell_px.max_element() / 6.0).round().clamp(1.0, 12.0) as usize;
         let field = Field::of_cells(self.counts, &values).refined(pieces);
         if let Some(target) = grid.target {
             let label = brief(target, TARGET_DIGITS);
-            let lines = field.contours(target);
+            let lines = self.certain(field.contours(target), target, grid.cells);
             self.draw_level(drawing, lines, &LineInk::target(label), texts);
         }
         for level in &self.scale.levels {
             if grid.target != Some(level.value) {
                 let ink = LineInk::plain(level, self.scale.colour(level.value));
-                self.draw_level(drawing, field.contours(level.value), &ink, texts);
+                let lines = self.certain(field.contours(level.value), level.value, grid.cells);
+                self.draw_level(drawing, lines, &ink, texts);
             }
         }
+    }
+
+    /// The lines of a level without rings in which no cell is known to differ from it.
+    fn certain(&self, lines: Vec<Line>, level: f64, cells: &[Cell]) -> Vec<Line> {
+        let columns = self.counts[0];
+        let differs = |cell: &Cell| {
+            let half_width = cell.half_width.unwrap_or(0.0);
+            cell.value.is_some_and(|value| (value - level).abs() > half_width)
+        };
+        let known: Vec<DVec2> = (0..cells.len())
+            .filter(|&cell| differs(&cells[cell]))
+            .map(|cell| DVec2::new((cell % columns) as f64 + 0.5, (cell / columns) as f64 + 0.5))
+            .collect();
+        let is_certain = |line: &Line| {
+            line.first() != line.last() || known.iter().any(|place| is_inside(line, *place))
+        };
+        lines.into_iter().filter(is_certain).collect()
     }
 
     /// Draws the lines of one level, with numbers where there is room.
@@ -261,11 +281,22 @@ impl Plot<'_> {
             // A little fainter than the contour lines, which are read first.
             let ink = mix(colour, ink_on(colour), 0.85);
             let style = TextStyle { halo: Some(colour), ..TextStyle::new(px, ink, Anchor::Middle) };
+            // Lines end at a number.
+            drawing.fill(own.frame(), colour);
             let below = DVec2::Y * (0.5 * capital_px(px));
             let base = (centre + below).round() + DVec2::splat(0.5);
             drawing.text(base.to_array(), style, number);
         }
     }
+}
+
+/// Whether a ring goes around a place: a ray from there crosses it an odd number of times.
+fn is_inside(ring: &Line, place: DVec2) -> bool {
+    let crosses = |side: &&[DVec2]| {
+        let [a, b] = [side[0] - place, side[1] - place];
+        (a.y > 0.0) != (b.y > 0.0) && (a.x * b.y - b.x * a.y > 0.0) == (b.y > a.y)
+    };
+    ring.windows(2).filter(crosses).count() % 2 == 1
 }
 
 #[cfg(test)]
@@ -338,6 +369,59 @@ mod tests {
                 assert!(!labels[..number].iter().flatten().any(near), "{k}: {label:?}");
             }
         }
+    }
+
+    /// Behind each number its cell is as it was before lines went through it.
+    #[test]
+    fn lines_end_at_numbers() {
+        let grid = Grid::new([5.0, 4.0], [20, 16], 0.001, batwing);
+        let picture = GridPicture { target: Some(420.0), ..grid.picture("workplane") };
+        let shapes = crate::picture::grid(&picture).shapes;
+        let scale = ValueScale::from_cells(&grid.cells);
+        let values: Vec<&[Shape]> = shapes
+            .windows(2)
+            .filter(|pair| {
+                matches!(&pair[1], Shape::Text { style, .. }
+                    if style.halo.is_some() && style.size_px != LABEL_PX)
+            })
+            .collect();
+        assert!(values.len() > 300);
+        for pair in values {
+            let [Shape::Fill { frame, colour }, Shape::Text { place_px, style, text }] = pair
+            else {
+                panic!("a number without a ground");
+            };
+            let value: f64 = text.parse().expect("a number");
+            assert!(*colour == style.halo.expect("a halo"), "{value}");
+            assert!(grid.cells.iter().any(|it| it.value.map(|x| scale.colour(x)) == Some(*colour)));
+            let half = 0.5 * width_px(text, style.size_px);
+            let [left, top] = [place_px[0] - half, place_px[1] - capital_px(style.size_px)];
+            let [[x, y], [width, height]] = [frame.corner_px, frame.size_px];
+            assert!(x < left && y < top && x + width > left + 2.0 * half, "{text}");
+            assert!(y + height > place_px[1], "{text}");
+        }
+    }
+
+    /// A ramp under noise has one line a level, and a cell that may as well lie below a level has
+    /// no ring.
+    #[test]
+    fn noise_has_no_lines() {
+        let mut grid =
+            Grid::new([5.0, 4.0], [20, 16], 0.0, |x, _| 445.0 + 200.0 * (x - 0.5).max(0.0));
+        for (k, cell) in grid.cells.iter_mut().enumerate() {
+            let shift = [4.0, -3.0, 1.0, -5.0, 3.0, 0.0, -1.0][k * k % 7];
+            *cell = Cell { value: cell.value.map(|lx| lx + shift), half_width: Some(10.0) };
+        }
+        grid.cells[165].value = Some(454.0);
+        let drawing = crate::picture::grid(&grid.picture("workplane"));
+        let scale = ValueScale::from_cells(&grid.cells);
+        let contours = drawing.shapes.iter().filter_map(|shape| match shape {
+            Shape::Lines { lines, stroke } if stroke.width_px == LINE_PX => Some(lines),
+            _ => None,
+        });
+        // A label parts its line in two.
+        let count = contours.count();
+        assert!(count <= 2 * scale.levels.len(), "{count} of {} levels", scale.levels.len());
     }
 
     /// The line of a target runs between cells below and above it, over the whole grid, and the

@@ -45,8 +45,8 @@ pub struct SkyPicture<'a> {
 pub fn sky(picture: &SkyPicture<'_>) -> Drawing {
     let cells = Cells::new(picture);
     let scale = LuminanceScale::new(&cells.inside());
-    let layout = Layout::without_axes([PLOT_PX; 2], picture.caption.facts);
-    let mut drawing = frame::titled(&layout, &picture.caption);
+    let layout = Layout::without_axes([PLOT_PX; 2], &picture.caption);
+    let mut drawing = frame::titled(&layout, picture.caption.title);
     let corner = layout.plot().corner_px;
     let middle = corner.map(|x| x + 0.5 * PLOT_PX as f64);
     let disk = Frame {
@@ -62,7 +62,7 @@ pub fn sky(picture: &SkyPicture<'_>) -> Drawing {
         draw_sun(&mut drawing, place(middle, radius_px(altitude_deg), azimuth_deg));
     }
     frame::draw_legend(&mut drawing, &layout, &scale.legend());
-    frame::draw_footer(&mut drawing, &layout, &picture.caption);
+    frame::draw_footer(&mut drawing, &layout);
     drawing
 }
 
@@ -197,7 +197,7 @@ mod tests {
         let values = [1000.0, 2000.0, 5000.0, 10_000.0];
         let drawing = drawn(&|[_, azimuth]| values[quarter(azimuth)], None);
         let (width, pixels) = decoded(&drawing);
-        let corner = Layout::without_axes([PLOT_PX; 2], &[]).plot().corner_px;
+        let corner = Layout::without_axes([PLOT_PX; 2], &Caption::default()).plot().corner_px;
         let middle = corner.map(|x| x + 0.5 * PLOT_PX as f64);
         let scale = LuminanceScale::new(&values.map(|value| value as f32));
         for azimuth_deg in [20.0, 75.0, 100.0, 170.0, 200.0, 250.0, 290.0, 340.0] {

@@ -52,8 +52,10 @@ pub fn year(picture: &YearPicture<'_>) -> Drawing {
     let scale = ValueScale::from_cells(&lit);
     let row_px = (DAY_PX[1] / a_day).max(1);
     let plot_size = [DAY_PX[0] * days, row_px * a_day];
-    let layout = Layout::with_axes_around(plot_size, caption.facts);
-    let mut drawing = frame::titled(&layout, &caption);
+    let kind = if scale.is_logarithmic() { ", logarithmic scale" } else { "" };
+    let method = format!("{}{kind}", caption.method);
+    let layout = Layout::with_axes_around(plot_size, &Caption { method: &method, ..caption });
+    let mut drawing = frame::titled(&layout, caption.title);
     let colour = |value: Option<f64>| match value {
         None => NO_VALUE,
         Some(value) if value > 0.0 => scale.colour(value),
@@ -67,9 +69,7 @@ pub fn year(picture: &YearPicture<'_>) -> Drawing {
     draw_axes(&mut drawing, &layout, months);
     let legend = Legend { unit, marks: Vec::new(), ticks: scale.ticks.clone(), target: None };
     frame::draw_legend(&mut drawing, &layout, &legend);
-    let kind = if scale.is_logarithmic() { ", logarithmic scale" } else { "" };
-    let method = format!("{}{kind}", caption.method);
-    frame::draw_footer(&mut drawing, &layout, &Caption { method: &method, ..caption });
+    frame::draw_footer(&mut drawing, &layout);
     drawing
 }
 
@@ -122,7 +122,7 @@ mod tests {
         let mut reader = png::Decoder::new(std::io::Cursor::new(png)).read_info().unwrap();
         let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
         let width = reader.next_frame(&mut pixels).unwrap().width as usize;
-        let layout = Layout::with_axes_around([1095, 360], &[]);
+        let layout = Layout::with_axes_around([1095, 360], &Caption::default());
         let [left, top] = layout.plot_corner;
         let at = |x: usize, y: usize| {
             let index = 3 * ((top + y) * width + left + x);

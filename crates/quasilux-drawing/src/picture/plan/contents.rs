@@ -5,7 +5,9 @@ use super::cut::Plane;
 use super::edges::{Edge, edges};
 use super::layout::Layout;
 use super::model::PlanPicture;
+use super::scope::Scope;
 use super::symbols::corners_of;
+use super::windows::WindowSet;
 use glam::DVec3;
 use std::collections::BTreeMap;
 
@@ -27,6 +29,7 @@ pub(crate) struct Contents<'a> {
     /// Height at which the plan is cut.
     pub(crate) cut_m: f64,
     pub(crate) edges: Vec<Edge>,
+    pub(crate) windows: WindowSet,
     /// The numbers of the remarks at places, which have them bit by bit.
     remarks: BTreeMap<[u64; 3], u32>,
 }
@@ -43,7 +46,9 @@ impl<'a> Contents<'a> {
         let edges = edges(picture.surfaces, &toward, least_m);
         let places = picture.marks.iter().filter_map(|m| Some((bits(m.position_m?), m.number)));
         let remarks = places.rev().collect();
-        Self { picture, geometry, layout, cut_m: cut_height_m(picture, &geometry), edges, remarks }
+        let windows = WindowSet::new(picture.surfaces, picture.openings_m, &edges);
+        let cut_m = cut_height_m(picture, &geometry);
+        Self { picture, geometry, layout, cut_m, edges, windows, remarks }
     }
 
     /// The number of the first remark on what stands at a place.
@@ -62,6 +67,14 @@ impl<'a> Contents<'a> {
         let normal = self.layout.views[view].projection.toward();
         let at = if view == 0 { DVec3::Z * self.cut_m } else { self.geometry.centre_m() };
         Plane { normal, offset_m: normal.dot(at) }
+    }
+}
+
+impl Contents<'_> {
+    /// What of things in space a view shows.
+    pub(crate) fn scope(&self, view: usize) -> Scope {
+        let hair_m = 1e-6 * self.geometry.size_m().max_element();
+        Scope { cut: (view > 0).then(|| self.plane(view)), hair_m }
     }
 }
 

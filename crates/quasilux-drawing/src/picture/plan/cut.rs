@@ -18,6 +18,24 @@ impl Plane {
         self.normal.dot(point_m) - self.offset_m
     }
 
+    /// Whether a point is not above the plane, within a hair of `hair_m`.
+    pub(crate) fn has_below(&self, point_m: DVec3, hair_m: f64) -> bool {
+        self.height(point_m) <= hair_m
+    }
+
+    /// What of a triangle is not above the plane, in triangles.
+    pub(crate) fn triangles_below(&self, corners: [DVec3; 3]) -> Vec<[DVec3; 3]> {
+        let side = |k: usize| [corners[k], corners[(k + 1) % 3]];
+        // Where sides cross the plane both neighbours have the crossing: once is enough.
+        let ends = (0..3).filter_map(|k| self.part_below(side(k))).flatten();
+        let mut ring: Vec<DVec3> = ends.collect();
+        ring.dedup();
+        if ring.len() > 1 && ring.first() == ring.last() {
+            ring.pop();
+        }
+        (2..ring.len()).map(|k| [ring[0], ring[k - 1], ring[k]]).collect()
+    }
+
     /// What of a segment is not above the plane.
     pub(crate) fn part_below(&self, [a, b]: [DVec3; 2]) -> Option<[DVec3; 2]> {
         match [a, b].map(|end| self.height(end) > 0.0) {
@@ -29,7 +47,7 @@ impl Plane {
     }
 
     /// Where the plane cuts a triangle.
-    fn cut(&self, corners: [DVec3; 3]) -> Option<[DVec3; 2]> {
+    pub(crate) fn cut(&self, corners: [DVec3; 3]) -> Option<[DVec3; 2]> {
         let above = corners.map(|corner| self.height(corner) > 0.0);
         // The corner that lies alone on its side.
         let alone =
@@ -63,6 +81,21 @@ impl<'a> Surfaces<'a> {
             .get(index)?
             .map(|v| self.positions_m.get(v as usize).copied().filter(|p| p.is_finite()));
         Some([a?, b?, c?])
+    }
+
+    /// The number of the material of a triangle.
+    pub(crate) fn material(self, index: usize) -> u32 {
+        self.material_of.get(index).copied().unwrap_or(0)
+    }
+
+    /// Triangles that light goes through.
+    pub(crate) fn panes(self) -> impl Iterator<Item = [DVec3; 3]> + 'a {
+        let lets_through = move |index: &usize| {
+            let material = self.material(*index) as usize;
+            self.lets_through.get(material).copied().unwrap_or(false)
+        };
+        let all = 0..self.triangles.len();
+        all.filter(lets_through).filter_map(move |index| self.triangle(index))
     }
 
     /// The lines in which a plane cuts the triangles.
@@ -113,10 +146,29 @@ mod tests {
     }
 
     #[test]
+    fn triangles_are_cut_off_at_the_plane() {
+        let plane = Plane { normal: DVec3::Z, offset_m: 1.0 };
+        let corner = |x: f64, z: f64| DVec3::new(x, 0.0, z);
+        let area_below = |corners: [DVec3; 3]| -> f64 {
+            let pieces = plane.triangles_below(corners);
+            let area = |[a, b, c]: [DVec3; 3]| 0.5 * (b - a).cross(c - a).length();
+            assert!(pieces.iter().flatten().all(|p| p.z <= 1.0));
+            pieces.into_iter().map(area).sum()
+        };
+        let tip_up = [corner(0.0, 0.0), corner(2.0, 0.0), corner(1.0, 2.0)];
+        assert!((area_below(tip_up) - 1.5).abs() < 1e-12);
+        let tip_down = tip_up.map(|p| corner(p.x, 2.0 - p.z));
+        assert!((area_below(tip_down) - 0.5).abs() < 1e-12);
+        assert!((area_below(tip_up.map(|p| p * 0.5)) - 0.5).abs() < 1e-12);
+        assert_eq!(area_below(tip_up.map(|p| p + DVec3::Z * 1.5)), 0.0);
+    }
+
+    #[test]
     fn triangles_with_wrong_corners_are_left_out() {
         let positions_m = [DVec3::ZERO, DVec3::NAN, DVec3::Z, DVec3::ONE];
         let triangles = [[0, 1, 2], [0, 2, 9], [0, 2, 3]];
-        let surfaces = Surfaces { positions_m: &positions_m, triangles: &triangles };
+        let surfaces =
+            Surfaces { positions_m: &positions_m, triangles: &triangles, ..Surfaces::default() };
         assert_eq!(surfaces.corners().count(), 1);
     }
 }

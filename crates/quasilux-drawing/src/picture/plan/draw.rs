@@ -7,9 +7,11 @@ use super::labels::{Box, Labels};
 use super::model::PlanLuminaire;
 use super::pieces::pieces;
 use super::region;
+use super::scope::Scope;
 use super::symbols::{self, Ink};
 use super::thin::thinned;
 use super::view::{Pin, View};
+use super::windows::WindowView;
 use crate::drawing::Drawing;
 use crate::style::{Anchor, Colour, INK, Stroke, TextStyle};
 use crate::text::width_px;
@@ -31,7 +33,8 @@ const BALLOON_PX: f64 = 9.5;
 pub(crate) fn draw(drawing: &mut Drawing, contents: &Contents<'_>, index: usize) {
     let view = contents.layout.views[index];
     let labels = Labels::new(view.frame);
-    let mut painter = Painter { contents, view, index, labels };
+    let scope = contents.scope(index);
+    let mut painter = Painter { contents, view, index, scope, labels };
     drawing.clipped(view.frame, |drawing| {
         painter.surfaces(drawing);
         painter.grids(drawing);
@@ -48,6 +51,7 @@ struct Painter<'a> {
     contents: &'a Contents<'a>,
     view: View,
     index: usize,
+    scope: Scope,
     labels: Labels,
 }
 
@@ -74,26 +78,27 @@ struct Group {
 impl Painter<'_> {
     fn surfaces(&mut self, drawing: &mut Drawing) {
         let (contents, projection, frame) = (self.contents, self.view.projection, self.view.frame);
-        let surfaces = contents.picture.surfaces;
+        let (surfaces, plane) = (contents.picture.surfaces, contents.plane(self.index));
+        let scope = self.scope;
         let on_sheet = |ends: [DVec3; 2]| ends.map(|end| projection.place(end));
         let glowing = || {
             let lights = contents.picture.area_lights.iter();
-            lights.flat_map(|light| light.triangles).filter_map(move |&t| {
-                Some(surfaces.triangle(t as usize)?.map(|corner| projection.place(corner)))
-            })
+            let all = lights.flat_map(|light| light.triangles);
+            all.filter_map(move |&t| surfaces.triangle(t as usize))
+                .flat_map(move |corners| scope.triangles(corners))
+                .map(move |corners| corners.map(|corner| projection.place(corner)))
         };
+        let windows = contents.windows.seen(&WindowView { projection, frame, scope });
+        windows.draw_faces(drawing, frame, None);
         let outlines = region::outlines(glowing());
         drawing.region(&outlines, ink::GLOW);
-        let plane = contents.plane(self.index);
         let seen = contents.edges.iter().filter(|edge| edge.is_seen(self.index));
-        let seen = seen.filter_map(|edge| match self.index {
-            0 => plane.part_below(edge.ends_m),
-            _ => Some(edge.ends_m),
-        });
+        let seen = seen.filter_map(|edge| plane.part_below(edge.ends_m));
         drawing.lines(&thinned(seen.map(on_sheet), frame, MAX_LINES), ink::EDGE);
         let cut = surfaces.cut(plane).map(on_sheet);
         let cut = thinned(cut, frame, MAX_LINES);
         drawing.lines(&cut, ink::CUT);
+        windows.draw_lines(drawing);
         self.labels.keep_off(cut);
         let sides = outlines
             .iter()
@@ -109,7 +114,8 @@ impl Painter<'_> {
         let surfaces = self.contents.picture.surfaces;
         let lights = self.contents.picture.area_lights.iter();
         let pieces = lights.flat_map(|light| pieces(surfaces, light.triangles));
-        let seen = pieces.filter(|piece| piece.mean_normal.length() > 0.5);
+        let seen = pieces
+            .filter(|piece| piece.mean_normal.length() > 0.5 && self.scope.holds(piece.middle_m));
         for piece in seen.take(MAX_TEXTS) {
             let at = self.view.projection.place(piece.middle_m);
             let across = self.view.projection.direction(piece.mean_normal.normalize());
@@ -120,18 +126,24 @@ impl Painter<'_> {
     fn grids(&mut self, drawing: &mut Drawing) {
         let projection = self.view.projection;
         for grid in self.contents.picture.grids.iter().take(MAX_TEXTS) {
-            let corners = symbols::corners_of(grid).map(|corner| projection.place(corner));
+            let corners = symbols::corners_of(grid);
+            let middle_m = middle_of(&corners);
+            let scope = self.scope_of(middle_m);
             let inside = |p: &DVec2| self.view.holds(*p);
             // Dashes are counted: only what the frame shows is drawn.
-            let sides = (0..4).map(|k| [corners[k], corners[(k + 1) % 4]]);
+            let sides = (0..4).filter_map(|k| scope.segment([corners[k], corners[(k + 1) % 4]]));
+            let sides = sides.map(|ends| ends.map(|end| projection.place(end)));
             for ends in thinned(sides, self.view.frame, 4) {
                 drawing.lines(&[ends], ink::SENSOR_EDGE);
             }
-            let sample = symbols::sample_of(grid, SAMPLE).into_iter().map(|p| projection.place(p));
-            for place in sample.filter(inside) {
+            let sample = symbols::sample_of(grid, SAMPLE).into_iter().filter(|p| scope.holds(*p));
+            for place in sample.map(|p| projection.place(p)).filter(inside) {
                 drawing.disk(place.to_array(), 1.3, ink::SENSOR);
             }
-            let pin = self.view.pin(middle_of(&symbols::corners_of(grid)));
+            if !scope.holds(middle_m) {
+                continue;
+            }
+            let pin = self.view.pin(middle_m);
             symbols::normal(drawing, pin.place_px, grid.normal, &projection);
             self.point_out(drawing, &pin, ink::SENSOR_LINE);
             self.labels.take(Box::around(pin.place_px, DVec2::splat(8.0)));
@@ -143,6 +155,9 @@ impl Painter<'_> {
         for named in self.contents.picture.points.iter().take(MAX_TEXTS) {
             let step = named.points.len().div_ceil(MAX_SYMBOLS / 5).max(1);
             for point in named.points.iter().step_by(step) {
+                if !self.is_shown(point.position_m) {
+                    continue;
+                }
                 let pin = self.view.pin(point.position_m);
                 drawing.disk(pin.place_px.to_array(), 2.6, ink::SENSOR);
                 let across = projection.direction(point.normal);
@@ -155,6 +170,9 @@ impl Painter<'_> {
 
     fn cameras(&mut self, drawing: &mut Drawing) {
         for camera in self.contents.picture.cameras.iter().take(MAX_TEXTS) {
+            if !self.is_shown(camera.position_m) {
+                continue;
+            }
             let pin = self.view.pin(camera.position_m);
             let place = pin.place_px;
             let reach = symbols::camera(drawing, place, camera, &self.view.projection);
@@ -169,7 +187,8 @@ impl Painter<'_> {
         for is_fault in [false, true] {
             let ink = if is_fault { Ink::FAULT } else { Ink::LAMP };
             for luminaire in picture.luminaires.iter().take(MAX_SYMBOLS) {
-                if self.contents.is_fault(luminaire.position_m) != is_fault {
+                let at_m = luminaire.position_m;
+                if self.contents.is_fault(at_m) != is_fault || !self.is_shown(at_m) {
                     continue;
                 }
                 let pin = self.view.pin(luminaire.position_m);
@@ -182,12 +201,26 @@ impl Painter<'_> {
             }
         }
         for &position_m in picture.point_lights_m.iter().take(MAX_SYMBOLS) {
+            if !self.is_shown(position_m) {
+                continue;
+            }
             let ink = if self.contents.is_fault(position_m) { Ink::FAULT } else { Ink::LAMP };
             let pin = self.view.pin(position_m);
             symbols::star(drawing, pin.place_px, ink);
             self.point_out(drawing, &pin, ink.line);
             self.labels.take(Box::around(pin.place_px, DVec2::splat(11.0)));
         }
+    }
+
+    /// Whether a thing at a place is drawn: before the viewer, and also behind where it is wrong.
+    fn is_shown(&self, place_m: DVec3) -> bool {
+        self.scope_of(place_m).holds(place_m)
+    }
+
+    /// What is shown of a thing around a place; all of what is wrong.
+    fn scope_of(&self, place_m: DVec3) -> Scope {
+        let cut = self.scope.cut.filter(|_| !self.contents.is_fault(place_m));
+        Scope { cut, ..self.scope }
     }
 
     /// A luminaire as it is drawn: small beyond the frame, and where it would hide the room.
@@ -257,7 +290,8 @@ impl Painter<'_> {
             self.text(drawing, group.centre, group.reach + 3.0, &text, colour);
         }
         let lights = self.contents.picture.point_lights_m.iter().take(MAX_TEXTS);
-        for (number, &position_m) in lights.enumerate() {
+        let lights = lights.enumerate().filter(|(_, place_m)| self.is_shown(**place_m));
+        for (number, &position_m) in lights.collect::<Vec<_>>() {
             let pin = self.view.pin(position_m);
             let away = pin.beyond.map_or(String::new(), |beyond| format!(": {} away", beyond.text));
             let is_fault = self.contents.is_fault(position_m);
@@ -284,7 +318,8 @@ impl Painter<'_> {
     /// Luminaires that are drawn on top of each other.
     fn groups(&self) -> Vec<Group> {
         let mut groups: BTreeMap<GroupKey, Group> = BTreeMap::new();
-        for (index, luminaire) in self.contents.picture.luminaires.iter().enumerate() {
+        let luminaires = self.contents.picture.luminaires.iter().enumerate();
+        for (index, luminaire) in luminaires.filter(|(_, it)| self.is_shown(it.position_m)) {
             let pin = self.view.pin(luminaire.position_m);
             let outside = self.outside(luminaire.position_m);
             let [x, y] = (pin.place_px / 4.0).to_array().map(|x| x.round() as i64);
@@ -316,32 +351,38 @@ impl Painter<'_> {
     fn sensor_texts(&mut self, drawing: &mut Drawing) {
         let picture = self.contents.picture;
         for camera in picture.cameras.iter().take(MAX_TEXTS) {
+            if !self.is_shown(camera.position_m) {
+                continue;
+            }
             let pin = self.view.pin(camera.position_m);
             self.name(drawing, camera.name, &pin, ink::CAMERA);
         }
         for grid in picture.grids.iter().take(MAX_TEXTS) {
-            let corners = symbols::corners_of(grid);
-            let places = corners.map(|corner| self.view.projection.place(corner));
-            let inside = |p: &&DVec2| self.view.holds(**p);
-            // The upper left corner.
-            let corner =
-                places.iter().filter(inside).min_by(|a, b| (a.x + a.y).total_cmp(&(b.x + b.y)));
-            match corner.copied() {
-                Some(place_px) => {
-                    let pin = Pin { place_px, beyond: None };
-                    self.name(drawing, grid.name, &pin, ink::SENSOR);
-                }
-                None => {
-                    let pin = self.view.pin(middle_of(&corners));
-                    self.name(drawing, grid.name, &pin, ink::SENSOR);
-                }
+            if let Some(pin) = self.name_of_grid(&symbols::corners_of(grid)) {
+                self.name(drawing, grid.name, &pin, ink::SENSOR);
             }
         }
         for named in picture.points.iter().take(MAX_TEXTS) {
-            if let Some(first) = named.points.first() {
+            if let Some(first) = named.points.iter().find(|it| self.is_shown(it.position_m)) {
                 let pin = self.view.pin(first.position_m);
                 self.name(drawing, named.name, &pin, ink::SENSOR);
             }
+        }
+    }
+
+    /// Where the name of a grid stands: at its upper left corner, of what is shown of it.
+    fn name_of_grid(&self, corners: &[DVec3; 4]) -> Option<Pin> {
+        let middle_m = middle_of(corners);
+        let scope = self.scope_of(middle_m);
+        let sides = (0..4).filter_map(|k| scope.segment([corners[k], corners[(k + 1) % 4]]));
+        let ends: Vec<DVec3> = sides.flatten().collect();
+        let places = ends.iter().map(|end| self.view.projection.place(*end));
+        let corner = places
+            .filter(|place| self.view.holds(*place))
+            .min_by(|a, b| (a.x + a.y).total_cmp(&(b.x + b.y)));
+        match corner {
+            Some(place_px) => Some(Pin { place_px, beyond: None }),
+            None => (!ends.is_empty()).then(|| self.view.pin(middle_m)),
         }
     }
 

@@ -1,11 +1,12 @@
-//! The edges of surfaces that a drawing shows: borders, creases, and contours where a surface turns
-//! away from the viewer. Edges between triangles of one smooth face are left out.
+//! The edges of surfaces that a drawing shows: borders, creases, lines where one material ends and
+//! another one begins, and contours where a surface turns away from the viewer. Edges between
+//! triangles of one smooth face of one material are left out.
 //!
 //! Corners at one place are one corner, whatever their indices. Of each triangle at an edge only
 //! the direction w counts in which it leaves the edge, a unit vector square to it, so that the
-//! order of corners does not matter: where each triangle at the edge has another one that leaves
-//! about the opposite way, the surface goes on. Seen along d, it turns there if both leave to the
-//! same side of the edge's line on the sheet.
+//! order of corners does not matter: where each triangle at the edge has another one of its
+//! material that leaves about the opposite way, the surface goes on. Seen along d, it turns there
+//! if both leave to the same side of the edge's line on the sheet.
 
 use super::model::Surfaces;
 use glam::DVec3;
@@ -18,6 +19,8 @@ const COS_SMOOTH: f64 = 0.94;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Edge {
     pub(crate) ends_m: [DVec3; 2],
+    /// Where a single triangle has it, the direction in which that leaves.
+    pub(crate) border: Option<DVec3>,
     /// Bit k is set where it is seen along direction k.
     shown: u8,
 }
@@ -36,6 +39,7 @@ struct Side {
     ends: [u32; 2],
     /// The third corner.
     opposite: u32,
+    material: u32,
 }
 
 /// The edges that are seen along at most eight unit directions, in a fixed order. Edges shorter
@@ -51,11 +55,12 @@ pub(crate) fn edges(surfaces: Surfaces<'_>, directions: &[DVec3], least_m: f64) 
         if (b - a).cross(c - a) == DVec3::ZERO {
             continue;
         }
+        let material = surfaces.material(index);
         let corners = triangle.map(|corner| corner_of[corner as usize]);
         for k in 0..3 {
             let [a, b, opposite] = [k, (k + 1) % 3, (k + 2) % 3].map(|k| corners[k]);
             if place(a).distance_squared(place(b)) >= least_m * least_m {
-                sides.push(Side { ends: [a.min(b), a.max(b)], opposite });
+                sides.push(Side { ends: [a.min(b), a.max(b)], opposite, material });
             }
         }
     }
@@ -81,9 +86,16 @@ fn edge(sides: &[Side], place: &impl Fn(u32) -> DVec3, directions: &[DVec3]) -> 
         (across - along * along.dot(across)).normalize_or_zero()
     };
     // Where very many meet, the first ones decide.
-    let leaving: Vec<DVec3> = sides.iter().take(16).map(leaving).collect();
-    let goes_on = |w: &DVec3| leaving.iter().any(|other| w.dot(*other) < -COS_SMOOTH);
-    let shown = if leaving.iter().all(goes_on) {
+    let sides = &sides[..sides.len().min(16)];
+    let leaving: Vec<DVec3> = sides.iter().map(leaving).collect();
+    let pairs = || sides.iter().zip(&leaving);
+    let goes_on = |(side, w): (&Side, &DVec3)| {
+        let is_next = |(other, v): (&Side, &DVec3)| {
+            other.material == side.material && w.dot(*v) < -COS_SMOOTH
+        };
+        pairs().any(is_next)
+    };
+    let shown = if pairs().all(goes_on) {
         let turns = |direction: &DVec3| {
             let aside = along.cross(*direction);
             let sides = || leaving.iter().map(|w| w.dot(aside));
@@ -95,7 +107,8 @@ fn edge(sides: &[Side], place: &impl Fn(u32) -> DVec3, directions: &[DVec3]) -> 
     } else {
         u8::MAX
     };
-    (shown != 0).then_some(Edge { ends_m, shown })
+    let border = if let [only] = leaving.as_slice() { Some(*only) } else { None };
+    (shown != 0).then_some(Edge { ends_m, border, shown })
 }
 
 #[cfg(test)]
@@ -126,11 +139,38 @@ mod tests {
         let one = [[0, 1, 2], [0, 2, 3]];
         let two = [[0, 1, 2], [0, 2, 3], [0, 2, 1], [0, 3, 2]];
         for triangles in [&one[..], &two[..]] {
-            let surfaces = Surfaces { positions_m: &positions_m, triangles };
+            let positions_m = &positions_m;
+            let surfaces = Surfaces { positions_m, triangles, ..Surfaces::default() };
             let found = edges(surfaces, &VIEWS, 0.0);
             assert_eq!(found.len(), 4, "{triangles:?}");
             assert!(found.iter().all(|edge| edge.ends_m[0].distance(edge.ends_m[1]) < 1.1));
         }
+    }
+
+    /// A wall of 3 x 3 squares with shared corners, the middle one of glass: the outline of the
+    /// wall and of the glass.
+    #[test]
+    fn materials_in_one_plane_have_an_edge_between_them() {
+        let positions_m: Vec<DVec3> =
+            (0..16).map(|k| DVec3::new(f64::from(k % 4), 0.0, f64::from(k / 4))).collect();
+        let square = |k: u32| {
+            let a = k % 3 + 4 * (k / 3);
+            [[a, a + 1, a + 5], [a, a + 5, a + 4]]
+        };
+        let triangles: Vec<[u32; 3]> = (0..9).flat_map(square).collect();
+        let material_of: Vec<u32> = (0..18).map(|k| u32::from(k / 2 == 4)).collect();
+        let wall = Surfaces {
+            positions_m: &positions_m,
+            triangles: &triangles,
+            material_of: &material_of,
+            ..Surfaces::default()
+        };
+        let length = |surfaces: Surfaces<'_>| -> f64 {
+            let found = edges(surfaces, &VIEWS, 0.0);
+            found.iter().map(|edge| edge.ends_m[0].distance(edge.ends_m[1])).sum()
+        };
+        assert!((length(wall) - 16.0).abs() < 1e-12);
+        assert!((length(Surfaces { material_of: &[], ..wall }) - 12.0).abs() < 1e-12);
     }
 
     /// From each side a ball of many faces shows about a circle.

@@ -4,6 +4,16 @@ use crate::style::{Colour, Dash, Stroke};
 
 pub(crate) const CUT: Stroke = Stroke::solid([0x20; 3], 2.6);
 pub(crate) const EDGE: Stroke = Stroke::solid([0xa4, 0xa8, 0xae], 0.9);
+/// Panes from the front: their fill and their outline; the outline of openings without glass.
+pub(crate) const GLASS: Colour = [0xe4, 0xf2, 0xfa];
+pub(crate) const GLASS_LINE: Stroke = Stroke::solid(GLASS_INK, 1.2);
+pub(crate) const OPENING_LINE: Stroke =
+    Stroke { colour: GLASS_INK, width_px: 1.2, dash: Dash::Dashed };
+/// Windows as lines: the faces of the wall, the gap between them, and the glass in it.
+pub(crate) const WINDOW_WALL: Stroke = Stroke::solid([0x20; 3], 6.6);
+pub(crate) const WINDOW_GAP: Stroke = Stroke::solid([255; 3], 4.4);
+pub(crate) const WINDOW_GLASS: Stroke = Stroke::solid(GLASS_INK, 1.6);
+pub(crate) const GLASS_INK: Colour = [0x1b, 0x7c, 0xb0];
 pub(crate) const BORDER: Stroke = Stroke::solid([0xd4, 0xd7, 0xda], 1.0);
 /// Shining faces: their fill and their outline.
 pub(crate) const GLOW: Colour = [0xff, 0xf3, 0xa0];

@@ -1,8 +1,9 @@
 //! What the symbols mean, which way the axes run, and how long a metre is.
 
+use super::contents::Contents;
 use super::ink;
 use super::layout::{LEFT_PX, Layout};
-use super::model::{PlanLuminaire, PlanPicture};
+use super::model::PlanLuminaire;
 use super::projection::Projection;
 use super::symbols::{self, Ink};
 use crate::drawing::{Drawing, Frame};
@@ -18,10 +19,8 @@ const LINE_PX: f64 = 26.0;
 const CORNER_PX: f64 = 330.0;
 const IN_CORNER_PX: f64 = 140.0;
 
-/// The middle of the pointer to a turned north, from the corner's own; half its length, its name.
+/// The middle of the pointer to a turned north, from the corner's own.
 const NORTH_PX: DVec2 = DVec2::new(152.0, 44.0);
-const NORTH_RADIUS_PX: f64 = 20.0;
-const NORTH: &str = "north";
 
 /// A symbol of the key, drawn around a place.
 type Symbol = fn(&mut Drawing, DVec2);
@@ -40,11 +39,13 @@ struct Entry {
 
 impl Key {
     /// The key for a width; in the free corner of the views where it fits.
-    pub(crate) fn new(picture: &PlanPicture<'_>, layout: &Layout, most_px: f64) -> Self {
+    pub(crate) fn new(contents: &Contents<'_>, most_px: f64) -> Self {
+        let (picture, layout) = (contents.picture, &contents.layout);
         let has_sensors = !picture.grids.is_empty() || !picture.points.is_empty();
-        let all: [(bool, &'static str, Symbol); 8] = [
+        let all: [(bool, &'static str, Symbol); 9] = [
             (!picture.surfaces.triangles.is_empty(), "cut", draw_cut),
             (!picture.surfaces.triangles.is_empty(), "edges", draw_edges),
+            (!contents.windows.is_empty(), "window at any height", draw_window),
             (!picture.luminaires.is_empty(), "luminaire: tick to C0, arrow along aim", draw_lamp),
             (!picture.point_lights_m.is_empty(), "point light", draw_star),
             (!picture.area_lights.is_empty(), "luminous surface, arrow where it shines", draw_glow),
@@ -101,6 +102,14 @@ fn draw_cut(drawing: &mut Drawing, at: DVec2) {
 
 fn draw_edges(drawing: &mut Drawing, at: DVec2) {
     drawing.lines(&[[at - DVec2::X * 13.0, at + DVec2::X * 13.0]], ink::EDGE);
+}
+
+fn draw_window(drawing: &mut Drawing, at: DVec2) {
+    let line = |reach_px: f64| [[at - DVec2::X * reach_px, at + DVec2::X * reach_px]];
+    drawing.lines(&line(13.0), ink::CUT);
+    for stroke in [ink::WINDOW_WALL, ink::WINDOW_GAP, ink::WINDOW_GLASS] {
+        drawing.lines(&line(9.0), stroke);
+    }
 }
 
 fn draw_lamp(drawing: &mut Drawing, at: DVec2) {
@@ -168,22 +177,10 @@ pub(crate) fn compass_and_scale(drawing: &mut Drawing, layout: &Layout, north_de
         drawing.text(base.to_array(), style(14.0, Anchor::Start), name);
     }
     if is_turned {
-        draw_north(drawing, corner + NORTH_PX, north_deg);
+        let (sin, cos) = libm::sincos(north_deg.to_radians());
+        symbols::north(drawing, corner + NORTH_PX, DVec2::new(-sin, -cos), "north");
     }
     draw_scale(drawing, layout, corner);
-}
-
-/// Draws a pointer to the north around a place, with its name beyond the tip.
-fn draw_north(drawing: &mut Drawing, at: DVec2, north_deg: f64) {
-    let (sin, cos) = libm::sincos(north_deg.to_radians());
-    let to = DVec2::new(-sin, -cos);
-    let (tail, tip) = (at - to * NORTH_RADIUS_PX, at + to * NORTH_RADIUS_PX);
-    symbols::pointer(drawing, tail, tip, Stroke::solid(INK, 1.6));
-    // As far from the tip as the word reaches that way.
-    let half_word = DVec2::new(0.5 * width_px(NORTH, 14.0), 5.0);
-    let beyond = 6.0 + (half_word * to.abs()).length();
-    let base = tip + to * beyond + DVec2::Y * half_word.y;
-    drawing.text(base.to_array(), TextStyle::new(14.0, INK, Anchor::Middle), NORTH);
 }
 
 /// Draws a bar of round lengths.

@@ -58,4 +58,14 @@ impl Layout {
         let width_px = (right + y + RIGHT_PX).max(760.0);
         Self { views, corner, bottom_px: below + z + 50.0, width_px }
     }
+
+    /// Makes room above everything.
+    pub(crate) fn move_down(&mut self, by_px: f64) {
+        for view in &mut self.views {
+            view.frame.corner_px[1] += by_px;
+            view.projection.anchor_px.y += by_px;
+        }
+        self.corner.corner_px[1] += by_px;
+        self.bottom_px += by_px;
+    }
 }

@@ -7,8 +7,10 @@ pub(super) use edges::edges;
 pub(super) use labels::{Box, Labels};
 pub(super) use projection::Projection;
 pub(super) use region::outlines;
-pub(super) use symbols::{Ink, TICK_PX, opening, star};
+pub(super) use scope::Scope;
+pub(super) use symbols::{Ink, TICK_PX, north, opening, star};
 pub(super) use thin::{clipped, thinned};
+pub(super) use windows::{WindowSet, WindowView};
 
 mod axes;
 mod bounds;
@@ -18,8 +20,9 @@ mod draw;
 mod edges;
 #[cfg(test)]
 pub(super) mod fixtures;
+mod holes;
 mod hull;
-mod ink;
+pub(super) mod ink;
 mod key;
 mod labels;
 mod layout;
@@ -28,10 +31,12 @@ mod notes;
 mod pieces;
 mod projection;
 mod region;
+mod scope;
 mod sheet;
 mod symbols;
 mod thin;
 mod view;
+mod windows;
 mod words;
 
 pub use model::{

@@ -11,6 +11,10 @@ pub struct Surfaces<'a> {
     /// Indices of the corners of each triangle; a triangle that names a corner that is not there is
     /// left out.
     pub triangles: &'a [[u32; 3]],
+    /// The number of the material of each triangle; triangles without an entry have that of 0.
+    pub material_of: &'a [u32],
+    /// Whether light goes through the material of each number; through others it does not.
+    pub lets_through: &'a [bool],
 }
 
 /// A room to be drawn in plan and elevations.
@@ -20,6 +24,8 @@ pub struct PlanPicture<'a> {
     pub title: &'a str,
     /// What stands in the room and around it.
     pub surfaces: Surfaces<'a>,
+    /// Openings to the outside, the corners of each in turn.
+    pub openings_m: &'a [[DVec3; 4]],
     /// Triangles that emit light, each in its group.
     pub area_lights: &'a [PlanAreaLight<'a>],
     /// Luminaires, in the order of their numbers, from 1.

@@ -8,7 +8,7 @@ use super::model::PlanLuminaire;
 use super::words;
 use crate::drawing::Drawing;
 use crate::style::{Anchor, Colour, GREY, INK, TextStyle};
-use crate::text::{fitted, width_px};
+use crate::text::{width_px, wrapped};
 use glam::{DVec2, DVec3};
 use std::collections::BTreeMap;
 
@@ -18,30 +18,43 @@ const LINE_PX: f64 = 22.0;
 const ABOVE_PX: f64 = 12.0;
 /// Lines of one table.
 const MAX_LINES: usize = 24;
-/// Where columns begin.
+/// Where columns begin, if what stands before leaves them their places.
 const COLUMNS_PX: [f64; 6] = [0.0, 95.0, 280.0, 370.0, 565.0, 705.0];
+/// Most lines of a cell.
+const MAX_CELL_LINES: usize = 4;
+/// Most lines of a remark.
+const MAX_REMARK_LINES: usize = 6;
 /// Room between columns.
 const BETWEEN_PX: f64 = 12.0;
 
-/// One line.
+/// One row of a table, or one line of a remark.
 struct Remark {
     cells: Vec<String>,
+    /// The lines of each cell, where they are known, and where each begins.
+    columns: Vec<Column>,
     colour: Colour,
     is_heading: bool,
     /// The number in a balloon before it.
     balloon: Option<u32>,
 }
 
+/// A cell of a row.
+struct Column {
+    left_px: f64,
+    lines: Vec<String>,
+}
+
 /// The lines below the views.
 pub(crate) struct Notes {
     notes: Vec<Remark>,
+    width_px: f64,
 }
 
 impl Notes {
     /// The lines for a width.
     pub(crate) fn new(contents: &Contents<'_>, width_px: f64) -> Self {
-        let mut notes = Self { notes: Vec::new() };
-        notes.marks(contents, width_px);
+        let mut notes = Self { notes: Vec::new(), width_px };
+        notes.marks(contents);
         notes.luminaires(contents);
         notes.other_lights(contents);
         notes.sensors(contents);
@@ -53,11 +66,11 @@ impl Notes {
         self.notes.iter().map(Remark::height_px).sum()
     }
 
-    pub(crate) fn draw(&self, drawing: &mut Drawing, corner: DVec2, width_px: f64) {
+    pub(crate) fn draw(&self, drawing: &mut Drawing, corner: DVec2) {
         let mut top = corner.y;
         for note in &self.notes {
+            note.draw(drawing, DVec2::new(corner.x, top + note.first_px() - 6.0));
             top += note.height_px();
-            note.draw(drawing, DVec2::new(corner.x, top - 6.0), width_px);
         }
     }
 
@@ -66,28 +79,29 @@ impl Notes {
             return;
         }
         let cells = heading.iter().map(|&cell| cell.to_owned()).collect();
-        self.notes.push(Remark { cells, colour: GREY, is_heading: true, balloon: None });
+        let heading = Remark { is_heading: true, ..Remark::plain(cells).coloured(GREY) };
         let rest = rows.len().saturating_sub(MAX_LINES);
-        self.notes.extend(rows.into_iter().take(MAX_LINES));
+        let mut table: Vec<Remark> =
+            std::iter::once(heading).chain(rows.into_iter().take(MAX_LINES)).collect();
+        lay_out(&mut table, self.width_px);
+        self.notes.extend(table);
         if rest > 0 {
             self.notes.push(Remark::plain(vec![format!("and {rest} more")]));
         }
     }
 
-    fn marks(&mut self, contents: &Contents<'_>, width_px: f64) {
+    fn marks(&mut self, contents: &Contents<'_>) {
         let mut texts: BTreeMap<u32, &str> = BTreeMap::new();
         for mark in contents.picture.marks {
             texts.entry(mark.number).or_insert(&mark.text);
         }
         let rest = texts.len().saturating_sub(MAX_LINES);
         for (number, text) in texts.into_iter().take(MAX_LINES) {
-            for (line, text) in wrapped(text, width_px - 32.0).into_iter().enumerate() {
-                self.notes.push(Remark {
-                    cells: vec![text],
-                    colour: ink::FAULT,
-                    is_heading: false,
-                    balloon: (line == 0).then_some(number),
-                });
+            let lines = wrapped(text, ink::NOTE_PX, self.width_px - 32.0, MAX_REMARK_LINES);
+            for (line, text) in lines.into_iter().enumerate() {
+                let balloon = (line == 0).then_some(number);
+                let remark = Remark::plain(vec![text]).coloured(ink::FAULT);
+                self.notes.push(Remark { balloon, ..remark });
             }
         }
         if rest > 0 {
@@ -147,7 +161,7 @@ impl Notes {
                 [z.iter().copied().reduce(f64::min), z.iter().copied().reduce(f64::max)]
                     .map(|z| words::metres(z.unwrap_or(0.0)));
             let z = if low == high { format!("{low} m") } else { format!("{low}\u{2013}{high} m") };
-            let extent = format!("{columns} x {rows} on {u} m x {v} m");
+            let extent = format!("{columns} \u{d7} {rows} on {u} m \u{d7} {v} m");
             Remark::plain(vec![grid.name.to_owned(), extent, z, words::facing(grid.normal)])
         });
         let points = picture.points.iter().filter_map(|named| {
@@ -219,53 +233,116 @@ impl LuminaireLine {
 
 impl Remark {
     fn plain(cells: Vec<String>) -> Self {
-        Self { cells, colour: INK, is_heading: false, balloon: None }
+        Self { cells, columns: Vec::new(), colour: INK, is_heading: false, balloon: None }
     }
 
     fn coloured(self, colour: Colour) -> Self {
         Self { colour, ..self }
     }
 
-    fn height_px(&self) -> f64 {
+    /// From its top to below its first line.
+    fn first_px(&self) -> f64 {
         LINE_PX + if self.is_heading { ABOVE_PX } else { 0.0 }
     }
 
-    fn draw(&self, drawing: &mut Drawing, base: DVec2, width_px: f64) {
+    fn height_px(&self) -> f64 {
+        let lines = self.columns.iter().map(|column| column.lines.len()).max().unwrap_or(1);
+        self.first_px() + LINE_PX * lines.saturating_sub(1) as f64
+    }
+
+    fn draw(&self, drawing: &mut Drawing, base: DVec2) {
         let style = TextStyle::new(ink::NOTE_PX, self.colour, Anchor::Start);
         if let [text] = self.cells.as_slice()
-            && self.colour == ink::FAULT
+            && self.columns.is_empty()
         {
+            let is_remark = self.colour == ink::FAULT;
             if let Some(number) = self.balloon {
                 balloon(drawing, base + DVec2::new(10.0, -4.5), &number.to_string());
             }
-            drawing.text([base.x + 32.0, base.y], style, text);
+            let left = if is_remark { 32.0 } else { 0.0 };
+            drawing.text([base.x + left, base.y], style, text);
             return;
         }
-        for (column, text) in self.cells.iter().enumerate() {
-            let left = COLUMNS_PX.get(column).copied().unwrap_or(0.0);
-            let next = (column + 1..self.cells.len()).find(|&next| !self.cells[next].is_empty());
-            let right = next.and_then(|next| COLUMNS_PX.get(next)).map_or(width_px, |x| *x);
-            let text = fitted(text, ink::NOTE_PX, right - left - BETWEEN_PX);
-            drawing.text([base.x + left, base.y], style, &text);
+        for Column { left_px, lines } in &self.columns {
+            for (k, line) in lines.iter().enumerate() {
+                drawing.text([base.x + left_px, base.y + k as f64 * LINE_PX], style, line);
+            }
         }
     }
 }
 
-/// A text in lines of at most a width, broken between words; a word that is too long is cut.
-fn wrapped(text: &str, most_px: f64) -> Vec<String> {
-    let mut lines: Vec<String> = Vec::new();
-    for word in text.split_whitespace() {
-        if let Some(last) = lines.last_mut() {
-            let longer = format!("{last} {word}");
-            if width_px(&longer, ink::NOTE_PX) <= most_px {
-                *last = longer;
-                continue;
-            }
-        }
-        if lines.len() == 4 {
+/// Finds the columns of a table: at their usual places, or as wide as their cells need, or, where
+/// they have not the room for that, as wide as there is room, with cells in several lines.
+fn lay_out(table: &mut [Remark], most_px: f64) {
+    let columns = table.iter().map(|row| row.cells.len()).max().unwrap_or(0);
+    let width = |column: usize| {
+        let cells = table.iter().filter_map(|row| row.cells.get(column));
+        cells.map(|cell| width_px(cell, ink::NOTE_PX)).fold(0.0, f64::max)
+    };
+    let natural: Vec<f64> = (0..columns).map(width).collect();
+    let room_px = most_px - BETWEEN_PX * columns.saturating_sub(1) as f64;
+    let widths = shared_out(&natural, room_px);
+    let begin = |spread: bool| {
+        let mut left_px: f64 = 0.0;
+        let begins = widths.iter().enumerate().map(|(column, width)| {
+            let usual_px = COLUMNS_PX.get(column).copied().unwrap_or(0.0);
+            let own_px = if spread { left_px.max(usual_px) } else { left_px };
+            left_px = own_px + width + BETWEEN_PX;
+            own_px
+        });
+        begins.collect::<Vec<f64>>()
+    };
+    let usual = begin(true);
+    let fits = usual.last().zip(widths.last()).is_none_or(|(left, width)| left + width <= most_px);
+    let begins = if fits { usual } else { begin(false) };
+    for row in table {
+        let cells = row.cells.iter().zip(begins.iter().zip(&widths));
+        let column = |(cell, (left_px, width)): (&String, (&f64, &f64))| Column {
+            left_px: *left_px,
+            lines: wrapped(cell, ink::NOTE_PX, width + 1e-6, MAX_CELL_LINES),
+        };
+        row.columns = cells.map(column).collect();
+    }
+}
+
+/// What each gets of a room: what it wants, but none more than a common bound.
+fn shared_out(wanted: &[f64], room: f64) -> Vec<f64> {
+    let mut ascending = wanted.to_vec();
+    ascending.sort_unstable_by(f64::total_cmp);
+    let (mut left, mut bound) = (room, f64::INFINITY);
+    for (k, want) in ascending.iter().enumerate() {
+        let share = left / (ascending.len() - k) as f64;
+        if *want > share {
+            bound = share.max(0.0);
             break;
         }
-        lines.push(fitted(word, ink::NOTE_PX, most_px));
+        left -= want;
     }
-    lines
+    wanted.iter().map(|want| want.min(bound)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cells_stand_side_by_side_and_lose_nothing() {
+        let name = "METAL ENCLOSURE, WHITE PAINTED".to_owned();
+        let row = |cells: &[&str]| Remark::plain(cells.iter().map(|it| (*it).into()).collect());
+        for most_px in [250.0, 400.0, 700.0] {
+            let mut table =
+                vec![row(&["Luminous surfaces", "", "z"]), row(&[&name, "12 triangles", "2.6 m"])];
+            lay_out(&mut table, most_px);
+            let columns = &table[1].columns;
+            assert_eq!(columns[0].lines.join(" "), name);
+            assert_eq!(table[1].height_px(), LINE_PX * columns[0].lines.len() as f64);
+            for pair in columns.windows(2) {
+                let width = |line: &String| width_px(line, ink::NOTE_PX);
+                let widest = pair[0].lines.iter().map(width).fold(0.0, f64::max);
+                assert!(pair[0].left_px + widest + BETWEEN_PX <= pair[1].left_px + 1e-3);
+            }
+        }
+        assert_eq!(shared_out(&[10.0, 50.0, 90.0], 90.0), [10.0, 40.0, 40.0]);
+        assert_eq!(shared_out(&[10.0, 20.0], 90.0), [10.0, 20.0]);
+    }
 }

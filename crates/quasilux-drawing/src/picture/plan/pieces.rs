@@ -91,7 +91,7 @@ mod tests {
         let up = |first: u32| [[0, 1, 2], [0, 2, 3]].map(|t| t.map(|k| first + k));
         let down = |first: u32| [[2, 1, 0], [3, 2, 0]].map(|t| t.map(|k| first + k));
         let triangles = [down(0), up(4), down(8)].concat();
-        let shell = Shell { positions_m, triangles };
+        let shell = Shell { positions_m, triangles, ..Shell::default() };
         let found = pieces(shell.surfaces(), &[0, 1, 2, 3, 4, 5, 99]);
         let heights: Vec<f64> = found.iter().map(|piece| piece.mean_normal.z).collect();
         assert_eq!(heights, [-1.0, 1.0, -1.0]);

@@ -6,7 +6,8 @@ use super::labels::Box;
 use super::model::{PlanCamera, PlanGrid, PlanLuminaire};
 use super::projection::Projection;
 use crate::drawing::Drawing;
-use crate::style::{Colour, Stroke};
+use crate::style::{Anchor, Colour, INK, Stroke, TextStyle};
+use crate::text::width_px;
 use glam::{DVec2, DVec3};
 
 /// A luminaire's symbol is at least this long and wide.
@@ -17,6 +18,8 @@ pub(crate) const TICK_PX: f64 = 7.0;
 const ARROW_PX: f64 = 24.0;
 /// An arrow shorter than this share of its length is not drawn.
 const SEEN: f64 = 0.12;
+/// Half the length of a pointer to the north.
+const NORTH_RADIUS_PX: f64 = 20.0;
 /// Corners of a round outline.
 const ROUND: usize = 24;
 
@@ -111,6 +114,17 @@ pub(crate) fn pointer(drawing: &mut Drawing, from: DVec2, to: DVec2, stroke: Str
     let aside = back.perp() * 0.45;
     drawing.lines(&[[from, to + back * 0.8]], stroke);
     drawing.region(&[vec![to, to + back + aside, to + back - aside]], stroke.colour);
+}
+
+/// A pointer to the north around a place, with its name beyond the tip.
+pub(crate) fn north(drawing: &mut Drawing, at: DVec2, to: DVec2, name: &str) {
+    let (tail, tip) = (at - to * NORTH_RADIUS_PX, at + to * NORTH_RADIUS_PX);
+    pointer(drawing, tail, tip, Stroke::solid(INK, 1.6));
+    // As far from the tip as the word reaches that way.
+    let half_word = DVec2::new(0.5 * width_px(name, 14.0), 5.0);
+    let beyond = 6.0 + (half_word * to.abs()).length();
+    let base = tip + to * beyond + DVec2::Y * half_word.y;
+    drawing.text(base.to_array(), TextStyle::new(14.0, INK, Anchor::Middle), name);
 }
 
 /// A ray of eight arms: a light without direction.

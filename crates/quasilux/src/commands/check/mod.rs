@@ -2,6 +2,7 @@
 //! its plan.
 
 mod document;
+mod panes;
 mod summary;
 
 use super::run::{Folder, count, pool};

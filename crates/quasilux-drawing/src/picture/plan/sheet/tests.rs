@@ -1,10 +1,11 @@
 //! Whole sheets: what stands on them, that they are bounded, and that nothing breaks them.
 
-use super::super::fixtures::{Shell, luminaire, room};
+use super::super::fixtures::{Shell, luminaire, room, room_with_window};
 use super::super::ink;
-use super::super::model::{PlanCamera, PlanGrid, PlanMark, PlanPoint, PlanPoints};
+use super::super::model::{PlanAreaLight, PlanCamera, PlanGrid, PlanMark, PlanPoint, PlanPoints};
 use super::*;
 use crate::drawing::Shape;
+use crate::style::Stroke;
 use glam::DVec3;
 
 /// All texts of a drawing.
@@ -74,6 +75,114 @@ fn a_luminaire_far_outside_is_at_the_border() {
     }
     let drawing = plan(&picture);
     assert!(texts(&drawing).iter().filter(|text| *text == "2: 3.67 km away").count() == 3);
+}
+
+/// The ends of all lines of a stroke in a view.
+fn ends(drawing: &Drawing, view: usize, stroke: Stroke) -> Vec<DVec2> {
+    let views = drawing.shapes.iter().filter_map(|shape| match shape {
+        Shape::Clipped { shapes, .. } => Some(shapes),
+        _ => None,
+    });
+    let lines = views.skip(view).take(1).flatten().filter_map(|shape| match shape {
+        Shape::Lines { lines, stroke: own } if *own == stroke => Some(lines),
+        _ => None,
+    });
+    lines.flatten().flatten().map(|end| DVec2::from(*end)).collect()
+}
+
+/// How much is drawn in each view.
+fn amounts(picture: &PlanPicture<'_>) -> Vec<usize> {
+    let drawing = plan(picture);
+    let views = drawing.shapes.iter().filter_map(|shape| match shape {
+        Shape::Clipped { shapes, .. } => Some(elements(shapes)),
+        _ => None,
+    });
+    views.collect()
+}
+
+/// What is drawn in each view of a room of 6 m x 4 m x 3 m: bare, and with things at a place.
+fn amounts_with_things(at: DVec3) -> Vec<Vec<usize>> {
+    let shell = Shell::default().with_box(DVec3::ZERO, DVec3::new(6.0, 4.0, 3.0));
+    let bare = shell.picture(&[]);
+    let boxed = shell.clone().with_box(at - 0.1, at + 0.1);
+    let mut glowing = shell.clone();
+    let first = shell.positions_m.len() as u32;
+    let triangle = [[0.1, 0.0, 0.0], [0.0, 0.1, 0.1], [0.0, 0.0, -0.1]];
+    glowing.positions_m.extend(triangle.map(|corner| at + DVec3::from(corner)));
+    glowing.triangles.push([first, first + 1, first + 2]);
+    let lit = [PlanAreaLight { name: "sheet", triangles: &[shell.triangles.len() as u32] }];
+    let points = [PlanPoint { position_m: at, normal: DVec3::Z }];
+    let points = [PlanPoints { name: "eye", points: &points }];
+    let cameras = [PlanCamera { name: "eye", position_m: at, corners: [DVec3::X; 4] }];
+    let pictures = [
+        bare,
+        boxed.picture(&[]),
+        PlanPicture { area_lights: &lit, ..glowing.picture(&[]) },
+        PlanPicture { luminaires: &[luminaire(at)], ..bare },
+        PlanPicture { point_lights_m: &[at], ..bare },
+        PlanPicture { points: &points, ..bare },
+        PlanPicture { cameras: &cameras, ..bare },
+    ];
+    pictures.iter().map(amounts).collect()
+}
+
+/// Boxes, lamps, luminous triangles, sensors and cameras stand at random in a room; each elevation
+/// shows those before its viewer and not those behind.
+#[test]
+fn elevations_show_what_is_before_the_viewer() {
+    let mut state = 7_u64;
+    let mut share = || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963);
+        (state >> 40) as f64 / f64::from(1 << 24)
+    };
+    for _ in 0..40 {
+        let at = DVec3::new(0.2 + 5.4 * share(), 0.2 + 3.4 * share(), 0.2 + 2.4 * share());
+        let found = amounts_with_things(at);
+        for (view, depth_m) in [(1, at.y - 2.0), (2, 3.0 - at.x)] {
+            for (kind, amounts) in found.iter().enumerate().skip(1) {
+                let is_seen = amounts[view] > found[0][view];
+                let is_cut = depth_m.abs() < 0.3;
+                assert!(is_cut || is_seen == (depth_m > 0.0), "{kind} at {at} in view {view}");
+            }
+        }
+    }
+}
+
+/// A sheet just before the east wall of a room of 6 m: the side elevation, cut at 3 m, looks to -x.
+#[test]
+fn a_door_behind_the_viewer_is_not_drawn() {
+    let mut shell = Shell::default().with_box(DVec3::ZERO, DVec3::new(6.0, 4.0, 3.0));
+    let first = shell.positions_m.len() as u32;
+    let door = [[1.0, 0.0], [2.0, 0.0], [2.0, 2.1], [1.0, 2.1]];
+    shell.positions_m.extend(door.map(|[y, z]| DVec3::new(5.97, y, z)));
+    shell.triangles.extend([[0, 1, 2], [0, 2, 3]].map(|t| t.map(|k| first + k)));
+    let bare = Shell::default().with_box(DVec3::ZERO, DVec3::new(6.0, 4.0, 3.0));
+    let edges = |shell: &Shell, view| ends(&plan(&shell.picture(&[])), view, ink::EDGE);
+    assert_eq!(edges(&shell, 2), edges(&bare, 2));
+    shell.positions_m[first as usize..].iter_mut().for_each(|corner| corner.x = 0.03);
+    assert_eq!(edges(&shell, 2).len(), edges(&bare, 2).len() + 8);
+}
+
+/// A window whose sill is above the cut of the plan: a line of glass in the south wall of the plan
+/// and, where it is cut, of the side elevation; the front elevation looks the other way.
+#[test]
+fn windows_are_in_plan_and_section() {
+    let window = |material| plan(&room_with_window(material).picture(&[]));
+    let glass = |drawing: &Drawing, view| ends(drawing, view, ink::WINDOW_GLASS);
+    let glazed = window(Some(1));
+    let px_per_m = 900.0 / 10.0;
+    for (view, length_m) in [(0, 2.0), (1, 0.0), (2, 1.0)] {
+        let ends = glass(&glazed, view);
+        let extreme = |pick: fn(DVec2, DVec2) -> DVec2| ends.iter().copied().reduce(pick);
+        let low = extreme(DVec2::min).unwrap_or_default();
+        let found_m = (extreme(DVec2::max).unwrap_or_default() - low).max_element() / px_per_m;
+        assert!((found_m - length_m).abs() < 0.02, "{found_m} m in view {view}");
+    }
+    assert!(has(&glazed, "window at any height"));
+    let walled = window(Some(0));
+    assert!(glass(&walled, 0).is_empty() && !has(&walled, "window at any height"));
+    let open = window(None);
+    assert!(glass(&open, 0).is_empty() && !ends(&open, 0, ink::WINDOW_GAP).is_empty());
 }
 
 #[test]
@@ -171,12 +280,16 @@ fn a_million_triangles_are_few_lines() {
 
 #[test]
 fn odd_scenes_do_not_break() {
-    let sheet =
-        Shell { positions_m: vec![DVec3::ZERO, DVec3::X, DVec3::Y], triangles: vec![[0, 1, 2]] };
+    let sheet = Shell {
+        positions_m: vec![DVec3::ZERO, DVec3::X, DVec3::Y],
+        triangles: vec![[0, 1, 2]],
+        ..Shell::default()
+    };
     let huge = Shell::default().with_box(DVec3::splat(-1e300), DVec3::splat(1e300));
     let tiny = Shell::default().with_box(DVec3::ONE, DVec3::ONE + 1e-12);
     let thin = Shell::default().with_box(DVec3::ZERO, DVec3::new(1e4, 1e-3, 1e-3));
-    let point = Shell { positions_m: vec![DVec3::ONE; 3], triangles: vec![[0, 1, 2]] };
+    let point =
+        Shell { positions_m: vec![DVec3::ONE; 3], triangles: vec![[0, 1, 2]], ..Shell::default() };
     let far = [DVec3::splat(1e200), DVec3::NAN, DVec3::ZERO].map(luminaire);
     let points = [PlanPoint { position_m: DVec3::splat(-1e9), normal: DVec3::Z }; 3];
     let grid = PlanGrid {
