@@ -3,6 +3,8 @@
 //!
 //! Flat panes that let light straight through are no vertices: they lie on the edges between them.
 
+mod scattered;
+
 use super::arrival::{Arrival, Asks};
 use super::departure::Departure;
 use super::engine::Engine;
@@ -300,63 +302,10 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
             self.pass_specular(engine, at, wo.z, &next);
             return self.go_on(engine, at, &frame, &next, flux);
         }
-        let weights = self.weights_at(engine, at, bsdf, wo.z);
-        let (flux_lm, bounces) = (self.flux_lm, self.bounces);
-        let found_by = engine.found_by(&self.photon);
-        let is_narrow = is_narrow(bsdf);
-        let copies = engine.copies.at(at);
-        let split = copies / self.copies;
-        let vertex = LightVertex {
-            at: *at,
-            frame,
-            wo,
-            flux_lm,
-            bounces,
-            weights,
-            is_narrow,
-            found_by,
-            copies,
-            split,
-        };
-        let count = self.count_copies(split);
-        self.copies = copies;
-        self.flux_lm = self.flux_lm * split.recip();
-        for number in (1..count).rev() {
-            let mut copy = self.clone();
-            copy.sampler = self.sampler.child(number);
-            if copy.scatter(engine, &vertex, flux) {
-                born.push(copy);
-            }
-        }
-        let goes_on = count > 0 && self.scatter(engine, &vertex, flux);
+        let vertex = self.vertex(engine, at, frame, wo);
+        let goes_on = self.scatter_in_copies(engine, &vertex, born, flux);
         found.push(FoundVertex { subpath: self.number, vertex });
         goes_on
-    }
-
-    /// One of the two whole numbers next to the mean.
-    fn count_copies(&mut self, mean: f64) -> u32 {
-        let whole = mean.floor();
-        let more = mean > whole && self.sampler.choose_bool(mean - whole);
-        whole as u32 + u32::from(more)
-    }
-
-    /// Goes on from a surface that is not specular; whether it does.
-    fn scatter(
-        &mut self,
-        engine: &Engine<'_, '_, S>,
-        vertex: &LightVertex<S>,
-        flux: &mut FluxTally,
-    ) -> bool {
-        let LightVertex { at, frame, wo, weights, is_narrow, split, .. } = vertex;
-        let bsdf = engine.context.world.bsdf(at);
-        let next = bsdf.sample(*wo, at.front, TransportMode::Importance, &mut self.sampler);
-        let Some(next) = next else { return false };
-        let cos = next.wi.z.abs();
-        let weights = weights.scattered(bsdf, *wo, next.wi, *split);
-        let last = LastVertex::Surface { cos, is_narrow: *is_narrow };
-        let (class, mirrored) = (LightPathClass::Found, None);
-        self.leg = Leg { weights, distance_m: 0.0, last, class, mirrored };
-        self.go_on(engine, at, frame, &next, flux)
     }
 
     /// Goes on from a specular surface: straight through a pane, or with a leg of its own.
