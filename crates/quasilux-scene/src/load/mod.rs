@@ -2,6 +2,7 @@
 
 mod annual;
 mod blinds;
+mod blurred_sun;
 mod glazing;
 mod lights;
 mod materials;
@@ -98,6 +99,7 @@ fn build(
     enclosures::light_must_end(&scene, project)?;
     enclosures::glass_must_be_closed(&scene, project, warnings);
     checks::places_in_walls(&scene, project, warnings)?;
+    blurred_sun::tell(&scene, project, warnings);
     Ok(Built { scene, places, facts })
 }
 
