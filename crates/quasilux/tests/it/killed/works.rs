@@ -45,7 +45,7 @@ pub(super) fn all(name: &str) -> Vec<Work> {
     let drawings = crate::annual_kept::folder(&format!("{name}_drawings"));
     write_room(&drawings, "lamp", &Look::GREY);
     vec![
-        estimator("bidirectional", "128"),
+        estimator("bidirectional", "96"),
         Work::new(annual, vec![year("annual.year", None)]),
         Work::new(spread, spread_run()),
         Work::new(pictures, vec![run("auto", "24")]),
@@ -87,7 +87,7 @@ fn shared_year() -> Vec<Step> {
 fn spread_run() -> Vec<Step> {
     let shard = ["shard", "room.toml", "--plan", "plan.json", "--quiet", "--shard"];
     vec![
-        step(&["plan", "room.toml", "--samples", "16", "--out", "plan.json"], 0),
+        step(&["plan", "room.toml", "--samples", "8", "--out", "plan.json"], 0),
         step(&[&shard[..], &["0/2", "--out", "a.part"]].concat(), 0),
         step(&[&shard[..], &["1/2", "--out", "b.part"]].concat(), 0),
         step(&["merge", "b.part", "a.part", "--out", "out", "--quiet"], 3),
@@ -106,18 +106,22 @@ fn drawn() -> Vec<Step> {
     ]
 }
 
-/// With points of more than one block, and few more.
+/// With points of more than one block, and hours of half a day.
 fn write_year(name: &str) -> Folder {
     let folder = crate::annual_kept::folder(name);
     let project = folder.read("a.toml").replace("[10, 9]", "[10, 5]").replace("[10, 6]", "[5, 4]");
     folder.write("a.toml", project);
+    let weather = folder.read("site.wea");
+    let is_needed = |row: &&str| !row.starts_with("3 20") || row.starts_with("3 20 1");
+    let fewer: Vec<&str> = weather.lines().filter(is_needed).collect();
+    folder.write("site.wea", fewer.join("\n") + "\n");
     folder
 }
 
 fn write_scene_with_camera(folder: &Folder) {
     write_room(folder, "room", &Look::GREY);
     let camera = "[[cameras]]\nname = \"view\"\nposition = [0.3, 0.3, 1]\n\
-        target = [1.5, 1.5, 1]\nvertical_fov_deg = 60\nresolution = [5, 4]\n[simulation]";
+        target = [1.5, 1.5, 1]\nvertical_fov_deg = 60\nresolution = [3, 2]\n[simulation]";
     let project = folder.read("room.toml").replace("[simulation]", camera);
     folder.write("room.toml", project.replace("replicates = 8", "replicates = 4"));
 }
