@@ -45,6 +45,7 @@ cargo xtask test examples  every example runs and gives the numbers it promises
 cargo xtask test gauntlet  a short part of the gauntlet, whose references are shipped
 cargo xtask test documents every command of the documentation runs and prints what it shows
 cargo xtask test deep      all tests, in variants that take long and find smaller errors
+cargo xtask deep           the same
 cargo xtask arrows CRATE   imports between the modules of a crate that no order allows
 cargo xtask order CRATE    an order of a crate's rooms with few imports against it
 cargo xtask order CRATE write   put that order into xtask/order.toml
@@ -71,6 +72,7 @@ fn main() -> ExitCode {
         }
         ["test"] => steps::run_all(),
         ["test", name] => steps::run_one(name),
+        ["deep"] => steps::run_one("deep"),
         ["arrows", name] => arrows::print_forbidden(&workspace_root(), name),
         ["order", name] => arrows::print_order(&workspace_root(), name),
         ["order", name, "write"] => arrows::write_order(&workspace_root(), name),

@@ -28,7 +28,7 @@ pub use decode::{decode, lines};
 pub use error::ParseError;
 pub use number::{Number, Token, check_room, number_list};
 pub use position::Position;
-pub use quote::{printable, quoted, shortened};
+pub use quote::{printable, printable_json, printable_lines, quoted, shortened};
 pub use warning::{TextWarning, Warning, Warnings};
 pub use web_page::refuse_web_page;
 

@@ -1,6 +1,7 @@
 //! Excerpts of a file in messages: escaped, and cut to a bounded length.
 
 use std::fmt;
+use std::fmt::Write;
 use std::ops::RangeInclusive;
 
 /// Characters without a shape that change how others are shown: marks of the direction of writing,
@@ -31,11 +32,46 @@ pub fn shortened(text: &str, max_characters: usize) -> String {
     shown
 }
 
+/// Whether a terminal obeys it, or shows other characters otherwise for it.
+fn is_command(c: char) -> bool {
+    c.is_control() || INVISIBLE.iter().any(|range| range.contains(&c))
+}
+
+/// A text of lines as a terminal may show it, uncut: characters that command it are escaped, but
+/// for line feeds.
+#[must_use]
+pub fn printable_lines(text: &str) -> String {
+    let mut shown = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '\n' => shown.push(c),
+            _ if is_command(c) => shown.extend(c.escape_unicode()),
+            _ => shown.push(c),
+        }
+    }
+    shown
+}
+
+/// A document in JSON as a terminal may show it: the same document, in which strings have escapes
+/// for characters that command it and stand in no other place.
+#[must_use]
+pub fn printable_json(document: &str) -> String {
+    let mut shown = String::with_capacity(document.len());
+    for c in document.chars() {
+        if is_command(c) && !c.is_ascii_whitespace() {
+            // A string takes everything.
+            _ = write!(shown, "\\u{:04x}", u32::from(c));
+        } else {
+            shown.push(c);
+        }
+    }
+    shown
+}
+
 /// A message as a terminal may show it: characters that command it are escaped, and words that
 /// no file name is as long as are cut.
 #[must_use]
 pub fn printable(message: &str) -> String {
-    let is_command = |c: char| c.is_control() || INVISIBLE.iter().any(|range| range.contains(&c));
     let mut shown = String::with_capacity(message.len());
     let mut word = 0;
     for c in message.chars() {
@@ -69,6 +105,8 @@ mod tests {
     fn messages_command_no_terminal() {
         assert_eq!(printable("wall \u{1b}[31m"), "wall \\u{1b}[31m");
         assert_eq!(printable("a\u{202e}b\nc\td"), "a\\u{202e}b\\u{a}c\\u{9}d");
+        assert_eq!(printable_lines("a\u{1b}b\n\u{202e}\r\n"), "a\\u{1b}b\n\\u{202e}\\u{d}\n");
+        assert_eq!(printable_json("{\n\t\"\u{202e}\u{7f}é\": 1}"), "{\n\t\"\\u202e\\u007fé\": 1}");
         assert_eq!(
             printable("20 \u{b0}C, 7 m\u{b2} in \"B\u{fc}ro\""),
             "20 \u{b0}C, 7 m\u{b2} in \"B\u{fc}ro\""

@@ -3,9 +3,11 @@
 use crate::exit::CliError;
 use crate::input;
 use quasilux_report::{Figure, Report, SensorReport};
+use quasilux_scene::Position;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use toml::Spanned;
 
 /// One case.
 #[derive(Debug, Deserialize)]
@@ -21,7 +23,10 @@ pub(crate) struct Case {
     /// The tolerance of the project, in place of its own, by the estimator.
     #[serde(default)]
     pub(crate) rel_tol: BTreeMap<String, f64>,
-    pub(crate) expect: Vec<Expectation>,
+    pub(crate) expect: Vec<Spanned<Expectation>>,
+    /// Where each of them stands.
+    #[serde(skip)]
+    places: Vec<Position>,
 }
 
 /// One expected figure.
@@ -72,14 +77,35 @@ pub(crate) struct Verdict {
     pub(crate) why: String,
 }
 
+/// An expectation and its place in the file of its case.
+pub(crate) struct Placed<'a> {
+    pub(crate) expectation: &'a Expectation,
+    pub(crate) place: Position,
+}
+
+/// Where a byte of a text stands.
+fn place(text: &str, offset: usize) -> Position {
+    let before = text.get(..offset).unwrap_or(text);
+    let line = before.rsplit('\n').next().unwrap_or_default();
+    Position { line: before.matches('\n').count() + 1, column: line.chars().count() + 1 }
+}
+
 impl Case {
     /// Reads a case.
     pub(crate) fn read(path: &Path) -> Result<Self, CliError> {
         let refuse =
             |error: &dyn std::fmt::Display| CliError::new(format!("{}: {error}", path.display()));
         let bytes = input::read(path, input::MAX_PROJECT_BYTES).map_err(|error| refuse(&error))?;
-        let text = String::from_utf8(bytes).map_err(|error| refuse(&error))?;
-        let mut case: Self = toml::from_str(&text).map_err(|error| refuse(&error))?;
+        let text = std::str::from_utf8(&bytes).map_err(|error| {
+            let valid = String::from_utf8_lossy(&bytes[..error.valid_up_to()]);
+            let place = place(&valid, valid.len());
+            CliError::in_file(path.display(), Some(place), "not UTF-8 text")
+        })?;
+        let mut case: Self = toml::from_str(text).map_err(|error| {
+            let place = error.span().map(|span| place(text, span.start));
+            CliError::in_file(path.display(), place, error.message().replace('\n', "; "))
+        })?;
+        case.places = case.expect.iter().map(|it| place(text, it.span().start)).collect();
         if case.expect.is_empty() {
             return Err(refuse(&"a case expects at least one value"));
         }
@@ -88,6 +114,12 @@ impl Case {
         }
         case.project = path.parent().unwrap_or(Path::new("")).join(case.project);
         Ok(case)
+    }
+
+    /// What it expects, and where that stands in its file.
+    pub(crate) fn expectations(&self) -> impl Iterator<Item = Placed<'_>> {
+        let pairs = self.expect.iter().zip(&self.places);
+        pairs.map(|(it, place)| Placed { expectation: it.get_ref(), place: *place })
     }
 
     /// The estimators to try; `None` is the project's own.

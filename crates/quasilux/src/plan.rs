@@ -11,6 +11,7 @@ use crate::exit::CliError;
 use crate::input;
 use crate::project::{Project, kept_settings};
 use quasilux_report::json;
+use quasilux_scene::Position;
 use quasilux_scene::project::{REFUSED_KEYS, RefusedKey};
 use quasilux_transport::{Decisions, Settings};
 use serde::{Deserialize, Serialize};
@@ -113,10 +114,11 @@ impl Plan {
     pub(crate) fn read(path: &Path) -> Result<Self, CliError> {
         let name = path.display();
         let bytes = input::read(path, input::MAX_PLAN_BYTES)
-            .map_err(|error| CliError::new(format!("{name}: {error}")))?;
-        let plan: Self = serde_json::from_slice(&bytes)
-            .map_err(|error| CliError::new(format!("{name}: {}", why_no_plan(&bytes, &error))))?;
-        plan.check().map_err(|what| CliError::new(format!("{name}: {what}")))?;
+            .map_err(|error| CliError::in_file(&name, None, error))?;
+        let plan: Self = serde_json::from_slice(&bytes).map_err(|error| {
+            CliError::in_file(&name, place_of(&error), why_no_plan(&bytes, &error))
+        })?;
+        plan.check().map_err(|what| CliError::in_file(&name, None, what))?;
         Ok(plan)
     }
 
@@ -182,8 +184,17 @@ fn why_no_plan(bytes: &[u8], error: &serde_json::Error) -> String {
     let refused = REFUSED_KEYS.iter().find(|key| document["settings"].get(key.old).is_some());
     match refused {
         Some(RefusedKey { old, now }) => format!("the setting \"{old}\" {now}"),
-        None => format!("is no plan: {error}"),
+        None => {
+            let text = error.to_string();
+            let end = format!(" at line {} column {}", error.line(), error.column());
+            format!("is no plan: {}", text.strip_suffix(&end).unwrap_or(&text))
+        }
     }
+}
+
+/// Where the parser stopped, if it knows.
+fn place_of(error: &serde_json::Error) -> Option<Position> {
+    (error.line() > 0).then(|| Position { line: error.line(), column: error.column().max(1) })
 }
 
 /// The bytes of a part.

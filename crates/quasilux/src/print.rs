@@ -2,12 +2,22 @@
 //! a stderr that takes nothing nobody can be told.
 
 use crate::exit::CliError;
-use quasilux_text::printable;
+use quasilux_text::{printable, printable_json, printable_lines};
 use std::fmt;
 use std::io::{self, BufWriter, ErrorKind, Write};
 
-/// Prints a text.
+/// Prints a text of lines; names in it come from files, and the terminal obeys what it is sent.
 pub(crate) fn print(text: &str) -> Result<(), CliError> {
+    print_styled(&printable_lines(text))
+}
+
+/// Prints a document in JSON.
+pub(crate) fn print_document(document: &str) -> Result<(), CliError> {
+    print_styled(&printable_json(document))
+}
+
+/// Prints a text that may command the terminal itself.
+pub(crate) fn print_styled(text: &str) -> Result<(), CliError> {
     to_stdout(|out| out.write_all(text.as_bytes()))
 }
 

@@ -9,6 +9,7 @@
 //! Blocks are only added, each forced to disk, so that a year of many points costs no more than it
 //! weighs. One that was cut short or changed ends what is known.
 
+use crate::atomic_file;
 use crate::build;
 use crate::checkpoint::Heading;
 use crate::container::{self, Contents};
@@ -87,12 +88,11 @@ impl YearHeading {
 }
 
 impl YearWriter {
-    /// A year that begins.
+    /// A year that begins, in the place of what was there once its heading is whole.
     pub(crate) fn begin(path: &Path, heading: &YearHeading) -> io::Result<Self> {
-        let mut file = File::create(path)?;
-        file.write_all(&container::encode(FORMAT, &json::text(heading), &[]))?;
-        file.sync_all()?;
-        Ok(Self(file))
+        let bytes = container::encode(FORMAT, &json::text(heading), &[]);
+        atomic_file::write_beside(path, |file| file.write_all(&bytes))?.publish()?;
+        Ok(Self(OpenOptions::new().append(true).open(path)?))
     }
 
     /// Adds some points.

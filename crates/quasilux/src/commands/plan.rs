@@ -4,7 +4,7 @@ use super::run::{count, pool};
 use crate::arguments::{PlanArguments, PlannedArguments, SimulationArguments};
 use crate::exit::{CliError, Exit};
 use crate::plan::Plan;
-use crate::print::print;
+use crate::print::print_document;
 use crate::project::Project;
 use crate::{project, results};
 use quasilux_transport::Settings;
@@ -20,7 +20,7 @@ pub(crate) fn plan(arguments: &PlanArguments) -> Result<Exit, CliError> {
         make(&arguments.project, &project, &arguments.planned, count(arguments.work.threads))?;
     match &arguments.out {
         Some(path) => results::write_atomic(path, made.plan.text().as_bytes())?,
-        None => print(&made.plan.text())?,
+        None => print_document(&made.plan.text())?,
     }
     Ok(Exit::Done)
 }

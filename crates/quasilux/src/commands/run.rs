@@ -7,7 +7,7 @@ use crate::door::{Admitted, Door, prepare};
 use crate::exit::{CliError, Exit};
 use crate::forecast::Forecast;
 use crate::plan::Plan;
-use crate::print::{print, tell, tell_text};
+use crate::print::{print, print_document, print_styled, tell, tell_text};
 use crate::project::Project;
 use crate::watcher::{Stopped, Watcher};
 use crate::{interrupt, project, results};
@@ -275,14 +275,14 @@ impl<'a> Folder<'a> {
         let of = PictureOf { scene: self.scene, title: &self.title };
         results::write(&self.path, report, of)?;
         if self.output.json {
-            print(&json::json(report))?;
+            print_document(&json::json(report))?;
             if let (Some(explanation), false) = (&report.explanation, self.output.quiet) {
                 tell_text(&table::explanation(explanation, Style::Plain));
             }
         } else if !self.output.quiet {
-            print(&table::table(report, style()))?;
+            print_styled(&table::table(report, style()))?;
             if let Some(explanation) = &report.explanation {
-                print(&format!("\n{}\n", table::explanation(explanation, style())))?;
+                print_styled(&format!("\n{}\n", table::explanation(explanation, style())))?;
             }
             print(&format!("results in {}\n", self.path.display()))?;
         }

@@ -3,13 +3,13 @@
 
 use super::run::simulate;
 use crate::arguments::{SimulationArguments, ValidateArguments};
-use crate::cases::{Case, Verdict};
+use crate::cases::{Case, Placed, Verdict};
 use crate::exit::{CliError, Exit};
 use crate::print::print;
 use crate::{interrupt, project};
 use quasilux_report::number::{brief, exact, figure_text};
 use quasilux_report::{Figure, Report};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Runs the cases; exit code 1 when one fails. An interrupted run is no verdict.
 pub(crate) fn validate(arguments: &ValidateArguments) -> Result<Exit, CliError> {
@@ -34,7 +34,7 @@ pub(crate) fn validate(arguments: &ValidateArguments) -> Result<Exit, CliError> 
             if finished.exit == Exit::Interrupted {
                 return Ok(Exit::Interrupted);
             }
-            for verdict in judge(&case, &finished.report)? {
+            for verdict in judge(&path, &case, &finished.report)? {
                 print_verdict(&finished.report, &verdict)?;
                 *(if verdict.holds { &mut held } else { &mut failed }) += 1;
             }
@@ -44,7 +44,7 @@ pub(crate) fn validate(arguments: &ValidateArguments) -> Result<Exit, CliError> 
     Ok(if failed == 0 { Exit::Done } else { Exit::CheckFailed })
 }
 
-fn case_files(folder: &std::path::Path) -> std::io::Result<Vec<PathBuf>> {
+fn case_files(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
     let mut files = Vec::new();
     for entry in std::fs::read_dir(folder)? {
         let path = entry?.path();
@@ -57,11 +57,12 @@ fn case_files(folder: &std::path::Path) -> std::io::Result<Vec<PathBuf>> {
 }
 
 /// The verdicts of all expectations of a case.
-fn judge(case: &Case, report: &Report) -> Result<Vec<Verdict>, CliError> {
+fn judge(path: &Path, case: &Case, report: &Report) -> Result<Vec<Verdict>, CliError> {
     let mut verdicts = Vec::new();
-    for expectation in &case.expect {
+    for Placed { expectation, place } in case.expectations() {
         verdicts.extend(expectation.judge(report).map_err(|error| {
-            CliError::new(format!("case \"{}\" ({}): {error}", case.name, case.source))
+            let message = format!("case \"{}\" ({}): {error}", case.name, case.source);
+            CliError::in_file(path.display(), Some(place), message)
         })?);
     }
     Ok(verdicts)

@@ -309,3 +309,18 @@ fn terms_of_a_year_that_make_no_sense_are_refused() {
         assert!(refused.stderr.contains(words), "{annual}: {}", refused.stderr);
     }
 }
+
+/// Names in files command no terminal, and are the same in a document.
+#[test]
+fn the_place_of_a_weather_file_is_shown_and_not_obeyed() {
+    let folder = folder("annual_place", WEATHER);
+    let place = "He\u{1b}[31mre\u{202e}";
+    folder.write("site.wea", weather().replace("Here", place));
+    let year = ["annual", "a.toml", "--out", "out", "--rel-tol", "50%"];
+    let shown = folder.quasilux(&year).stdout;
+    assert!(shown.contains("He\\u{1b}[31mre\\u{202e}"), "{shown:?}");
+    assert!(!shown.contains(['\u{1b}', '\u{202e}']), "{shown:?}");
+    let document = folder.quasilux(&[&year[..], &["--json"]].concat()).stdout;
+    assert!(!document.contains("\u{202e}"), "{document:?}");
+    assert!(parsed(&document).to_string().contains("re\u{202e}"));
+}

@@ -7,7 +7,7 @@ use std::fs;
 const POINTS: usize = 150;
 
 /// A room that is open on one side, with blinds and lamps, and a day of weather.
-fn folder(name: &str) -> Folder {
+pub(crate) fn folder(name: &str) -> Folder {
     let folder = Folder::new(name);
     let room = "o room\nusemtl floor\nv 0 0 0\nv 6 0 0\nv 6 4 0\nv 0 4 0\nf 1 2 3 4\n\
         usemtl wall\nv 0 4 3\nv 6 4 3\nf 4 3 6 5\n";

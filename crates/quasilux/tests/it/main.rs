@@ -20,6 +20,8 @@ mod fingerprint;
 mod glazing;
 mod kept;
 mod kernels;
+#[cfg(target_os = "linux")]
+mod killed;
 mod limits;
 mod manuals;
 #[cfg(target_os = "linux")]

@@ -167,9 +167,14 @@ fn what_is_no_run_is_refused_by_name() {
     folder.write("edited", folder.read("p").replace("\"samples\": 32", "\"samples\": 64"));
     let said = must(&folder, &["run", "room.toml", "--plan", "edited"], 2);
     assert!(said.contains("edited: was changed after it was made"), "{said}");
+    folder.write("cut", &folder.read("p")[..40]);
+    let said = must(&folder, &["run", "room.toml", "--plan", "cut"], 2);
+    let place = said.strip_prefix("error: cut:").and_then(|rest| rest.split(':').next());
+    assert!(place.is_some_and(|line| line.parse::<usize>().is_ok()), "{said}");
     folder.write("old", folder.read("p").replace("\"importance\":", "\"steering\":"));
     let said = must(&folder, &["run", "room.toml", "--plan", "old"], 2);
-    assert!(said.contains("old: the setting \"steering\" is \"importance\" now"), "{said}");
+    assert!(said.starts_with("error: old:"), "{said}");
+    assert!(said.contains(": the setting \"steering\" is \"importance\" now"), "{said}");
     merge(&folder, &parts, "merged", 3);
 }
 

@@ -56,6 +56,8 @@ fn what_is_no_case_is_refused() {
         ),
         ("no_sensor", Some(&*case("25").replace("\"spot\"", "\"sport\"")), "sport"),
         ("no_point", Some(&*case("25").replace("point = 0", "point = 1")), "no point 1"),
+        ("place", Some(&*case("25").replace("point = 0", "point = 1")), "case.toml:4:1: "),
+        ("typing", Some(&*case("25").replace("point = 0", "point = x")), "case.toml:7:9: "),
         (
             "no_estimator",
             Some(&*format!("rel_tol = {{ path = 0.1 }}\n{}", case("25"))),

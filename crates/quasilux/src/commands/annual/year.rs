@@ -9,7 +9,7 @@ use crate::commands::pool;
 use crate::exit::{CliError, Exit};
 use crate::interrupt;
 use crate::meter::Meter;
-use crate::print::{print, tell};
+use crate::print::{print, print_document, tell};
 use crate::project::Project;
 use crate::results;
 use crate::year_file::{YearBlock, YearCost};
@@ -225,7 +225,7 @@ impl<'p> Year<'p> {
         written.and(others)?;
         if output.json {
             report.run.warnings.iter().for_each(|warning| tell(format_args!("warning: {warning}")));
-            print(&annual_json(&report))?;
+            print_document(&annual_json(&report))?;
         } else if !output.quiet {
             print(&annual_table(&report))?;
             print(&format!("results in {}\n", folder.display()))?;

@@ -12,7 +12,7 @@ mod summary;
 use super::drawings;
 use crate::arguments::BsdfArguments;
 use crate::exit::{CliError, Exit};
-use crate::print::{print, tell};
+use crate::print::{print, print_document, tell};
 use crate::results;
 use input::{Input, Surface};
 
@@ -30,7 +30,7 @@ pub(crate) fn bsdf(arguments: &BsdfArguments) -> Result<Exit, CliError> {
     }
     let incidences = &arguments.incidences;
     if arguments.json {
-        print(&document::document(&inputs, incidences))?;
+        print_document(&document::document(&inputs, incidences))?;
     } else {
         let summary = |read: ReadInput<'_>| summary::summary(read.input, read.surface, incidences);
         print(&read(&inputs).map(summary).collect::<Vec<String>>().join("\n"))?;

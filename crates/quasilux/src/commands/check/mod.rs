@@ -9,7 +9,7 @@ use super::run::{Folder, count, pool};
 use crate::arguments::CheckArguments;
 use crate::door::{Admitted, prepare};
 use crate::exit::{CliError, Exit};
-use crate::print::print;
+use crate::print::{print, print_document};
 use crate::project::Project;
 use crate::{project, results};
 use quasilux_drawing::picture::PlanMark;
@@ -26,7 +26,7 @@ pub(crate) fn check(arguments: &CheckArguments) -> Result<Exit, CliError> {
     results::write_atomic(&folder.join("plan.png"), &plan.to_png(1.0))?;
     results::write_atomic(&folder.join("plan.svg"), plan.to_svg().as_bytes())?;
     if arguments.json {
-        print(&document(&project, &findings))?;
+        print_document(&document(&project, &findings))?;
     } else {
         if !arguments.quiet {
             print(&summary::summary(&project))?;

@@ -14,7 +14,7 @@ mod words;
 
 use crate::arguments::PhotometryArguments;
 use crate::exit::{CliError, Exit};
-use crate::print::{print, tell};
+use crate::print::{print, print_document, tell};
 use crate::results;
 use input::{Input, Luminaire};
 use outputs::Outputs;
@@ -29,7 +29,7 @@ pub(crate) fn photometry(arguments: &PhotometryArguments) -> Result<Exit, CliErr
         }
     }
     if arguments.json {
-        print(&document::document(&inputs))?;
+        print_document(&document::document(&inputs))?;
     } else {
         let summaries: Vec<String> =
             read(&inputs).map(|read| summary::summary(read.input, read.luminaire)).collect();

@@ -9,7 +9,7 @@ mod summary;
 
 use crate::arguments::SkyArguments;
 use crate::exit::{CliError, Exit};
-use crate::print::{print, tell};
+use crate::print::{print, print_document, tell};
 use crate::results;
 use positions::ListedDay;
 use std::path::Path;
@@ -44,7 +44,7 @@ pub(crate) fn sky(arguments: &SkyArguments) -> Result<Exit, CliError> {
         results::write_atomic(path, positions::csv(&days).as_bytes())?;
     }
     if arguments.json {
-        print(&document::document(&subject, &days))?;
+        print_document(&document::document(&subject, &days))?;
         return Ok(Exit::Done);
     }
     subject.warnings.iter().for_each(|warning| tell(format_args!("warning: {warning}")));

@@ -15,7 +15,11 @@ pub(super) struct Seed {
 
 const RUN: [&str; 8] = ["run", "room.toml", "--out", "out", "--samples", "2", "--threads", "2"];
 
-/// One triangle twice, its buffer within.
+/// The corners of a triangle, and the buffer that has them.
+pub(super) const TRIANGLE: [f32; 9] = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0];
+const BUFFER: &str = r#"{"byteLength": 36, "uri":
+"data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}"#;
+
 const GLTF: &str = r#"{"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}],
 "nodes": [{"name": "a", "mesh": 0, "children": [2]}, {"mesh": 0, "scale": [-1, 1, 2]},
 {"translation": [0, 0, 1], "rotation": [0, 0, 0, 1], "mesh": 0}],
@@ -24,8 +28,12 @@ const GLTF: &str = r#"{"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nod
 "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
 "min": [0, 0, 0], "max": [1, 1, 0]}],
 "bufferViews": [{"buffer": 0, "byteLength": 36}],
-"buffers": [{"byteLength": 36, "uri":
-"data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]}"#;
+"buffers": [BUFFER]}"#;
+
+/// One triangle some times.
+pub(super) fn gltf(buffer: &str) -> String {
+    GLTF.replace("BUFFER", buffer)
+}
 
 const TM33: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
 <IESTM33-18><Version>1.1</Version><Header><Manufacturer>none</Manufacturer>
@@ -50,7 +58,7 @@ pub(super) fn seeds() -> (Folder, Vec<Seed>) {
     folder.write("ball.ldt", EVERYWHERE_LDT);
     folder.write("lamp.xml", TM33);
     folder.write("sheet.xml", sheet());
-    folder.write("room.gltf", GLTF);
+    folder.write("room.gltf", gltf(BUFFER));
     let text = folder.read("room.toml");
     folder.write("sails.toml", text.replace("\"room.obj\"", "\"room.obj\", \"room.gltf\""));
     let more = [&["--plan", "plan.json"][..], &["--checkpoint", "run.ck", "--samples", "2"]];
