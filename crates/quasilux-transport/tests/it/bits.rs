@@ -79,5 +79,5 @@ const KNOWN: [&str; 5] = [
     "e2006d5de6bc7648",
     "0fa5f8e77f24593d",
     "994502bd6a2375ab",
-    "24c91fcbc7ff8e48",
+    "f1289d70adc12abe",
 ];

@@ -38,8 +38,8 @@ fn illuminance_is_pi_l_over_one_minus_r() {
 }
 
 /// Where one sensor stands at an end of a long room, what leaves there matters more than elsewhere,
-/// and light subpaths go on in copies. Of 30 averages over three points 1 may be 2.2 standard errors
-/// off.
+/// and light subpaths go on in copies. Errors are in standard errors of a point: their mean over
+/// three points and ten seeds has one of 0.32 if the points move together.
 #[test]
 fn copies_of_light_subpaths_bias_nothing() {
     let (reflectance, luminance_cd_m2) = (0.6, 100.0);
@@ -54,7 +54,7 @@ fn copies_of_light_subpaths_bias_nothing() {
             importance,
             seed,
             rel_tol: 0.0,
-            max_samples: Some(256),
+            max_samples: Some(64),
             unseen_tol: UnseenTolerance::Off,
             ..Settings::default()
         };
@@ -68,10 +68,9 @@ fn copies_of_light_subpaths_bias_nothing() {
             intervals.iter().map(|it| (it.value - wanted_lx) * 2.13 / it.half_width.unwrap());
         errors.sum::<f64>() / intervals.len() as f64
     };
-    let errors: Vec<f64> = (0..30).map(off).collect();
+    let errors: Vec<f64> = (0..10).map(off).collect();
     let mean = errors.iter().sum::<f64>() / errors.len() as f64;
-    // A mean of 30 has a standard error of 0.18 if points move together, less else.
-    assert!(mean.abs() < 0.6, "{mean}: {errors:?}");
+    assert!(mean.abs() < 1.0, "{mean}: {errors:?}");
 }
 
 /// In a room of one saturated colour the light of each channel c is its own furnace: with white
