@@ -356,7 +356,8 @@ mod tests {
     /// The bound of the module, on 4000 random ways of 0 to 6 surfaces whose techniques differ by
     /// up to 40 decades, and whose light subpaths are copied up to 64 times: weights sum up to one,
     /// and weight over density is one over the sum of all densities, so a contribution is no larger
-    /// than that of plain paths, of plain photons, or of any other technique. A weight that is 1e-6 off is seen.
+    /// than that of plain paths, of plain photons, or of any other technique. A weight
+    /// that is 1e-6 off is seen.
     #[test]
     fn no_technique_exceeds_plain_paths_or_plain_photons() {
         let mut numbers = Numbers(5);
