@@ -27,7 +27,7 @@ const EMITTED: u32 = 64;
 /// Less than this share of light behind a ceiling is taken for the table's own upward light.
 const LOST_SHARE: f64 = 0.2;
 /// A lamp that is meant to shine on what people look at from inside gives it more than the rest.
-const MOST_LOST: f64 = 0.5;
+const MAX_LOST_SHARE: f64 = 0.5;
 
 /// A way to a place where a lamp would shine on sensors.
 struct Move {
@@ -120,7 +120,9 @@ fn by_a_detour(survey: &Survey<'_>, index: usize, at: DVec3, findings: &mut Find
         return;
     }
     let lost = lost_share(survey, lamp, at, &survey.receivers);
-    let Some(way) = shortest_move(survey, lamp, at).filter(|_| lost > MOST_LOST) else { return };
+    let Some(way) = shortest_move(survey, lamp, at).filter(|_| lost > MAX_LOST_SHARE) else {
+        return;
+    };
     let what = names::light(findings.places, &scene.lights, index);
     let message = format!(
         "{what} at {} hangs outside the geometry, and {:.0} % of its light lands where no sensor \

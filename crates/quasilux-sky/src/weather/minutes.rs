@@ -26,7 +26,7 @@ impl LineTime {
 pub(super) fn ends_h(lines: &[LineTime], declared: f64) -> Vec<f64> {
     let runs = || lines.chunk_by(LineTime::is_of_the_hour_of);
     let an_hour = usual_length(runs().map(<[LineTime]>::len));
-    let stamp = Stamp::of(lines, declared, an_hour);
+    let stamp = Stamp::new(lines, declared, an_hour);
     let ends = runs().flat_map(|run| {
         (1..).zip(run).map(move |(number, line)| {
             let LineTime { hour_of_day, minute, .. } = *line;
@@ -60,7 +60,7 @@ enum Stamp {
 }
 
 impl Stamp {
-    fn of(lines: &[LineTime], declared: f64, an_hour: f64) -> Self {
+    fn new(lines: &[LineTime], declared: f64, an_hour: f64) -> Self {
         let vary = match lines {
             [] => false,
             [_] => declared > 1.0,

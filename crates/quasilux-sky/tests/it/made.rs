@@ -17,13 +17,13 @@ const MONTHS: [u32; 12] = [31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31];
 
 /// A place and its clock.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Place {
+pub(crate) struct Station {
     pub(crate) latitude_deg: f64,
     pub(crate) longitude_deg: f64,
     pub(crate) zone_h: f64,
 }
 
-impl Place {
+impl Station {
     /// Anywhere up to this latitude, by a clock that is up to an hour off.
     pub(crate) fn random(dice: &mut Dice, most_deg: f64) -> Self {
         let longitude_deg = dice.within(-165.0, 165.0);
@@ -101,7 +101,7 @@ impl Exposure {
 /// Some days of a place.
 #[derive(Clone, Debug)]
 pub(crate) struct Made {
-    pub(crate) place: Place,
+    pub(crate) place: Station,
     /// Intervals.
     pub(crate) an_hour: u32,
     pub(crate) slots: Vec<Slot>,
@@ -122,7 +122,7 @@ impl Span {
 }
 
 impl Made {
-    pub(crate) fn random(dice: &mut Dice, place: Place, span: Span) -> Self {
+    pub(crate) fn random(dice: &mut Dice, place: Station, span: Span) -> Self {
         let Span { first, days, has_leap_day, an_hour } = span;
         let mut dates = Vec::new();
         for (month, length) in (1..).zip(MONTHS) {
@@ -166,7 +166,7 @@ impl Made {
 
     /// As EPW, values times `unit`, minutes those of the end.
     pub(crate) fn epw(&self, unit: f64) -> File {
-        let Place { latitude_deg, longitude_deg, zone_h } = self.place;
+        let Station { latitude_deg, longitude_deg, zone_h } = self.place;
         let [first, last] = [self.slots[0], self.slots[self.slots.len() - 1]];
         let head = format!(
             "LOCATION,Nowhere,-,-,made up,000000,{latitude_deg:.2},{longitude_deg:.2},\
@@ -191,7 +191,7 @@ impl Made {
 
     /// As WEA in one of its units: of illuminances 100 lm/W.
     pub(crate) fn wea(&self, units: u32) -> File {
-        let Place { latitude_deg, longitude_deg, zone_h } = self.place;
+        let Station { latitude_deg, longitude_deg, zone_h } = self.place;
         let head = format!(
             "place Nowhere\nlatitude {latitude_deg:.2}\nlongitude {:.2}\ntime_zone {}\n\
              site_elevation 9.0\nweather_data_file_units {units}",

@@ -2,7 +2,7 @@
 //! comes out right, or what is odd is told.
 
 use crate::dice::Dice;
-use crate::made::{DIFFUSE, DIRECT, Exposure, File, MINUTE, Made, Place, Span, told};
+use crate::made::{DIFFUSE, DIRECT, Exposure, File, MINUTE, Made, Span, Station, told};
 use quasilux_sky::{ParsedWeather, Weather, WeatherWarning};
 
 /// So many from a first one on, or ten times as many.
@@ -13,13 +13,13 @@ fn seeds(first: u64, count: u64) -> std::ops::Range<u64> {
 
 /// An hour a line, of a year.
 fn year(dice: &mut Dice, most_deg: f64) -> Made {
-    let place = Place::random(dice, most_deg);
+    let place = Station::random(dice, most_deg);
     Made::random(dice, place, Span::YEAR)
 }
 
 /// Some weeks of any season, with so many intervals an hour.
 fn season(dice: &mut Dice, an_hour: u32, days: u32) -> Made {
-    let place = Place::random(dice, 60.0);
+    let place = Station::random(dice, 60.0);
     let first = dice.below(365 - days as usize) as u32;
     let span = Span { first, days, an_hour, ..Span::YEAR };
     Made::random(dice, place, span)
@@ -36,7 +36,7 @@ fn expect(name: &str, parsed: &ParsedWeather, exposure: Exposure, kinds: &[Weath
 fn right_files_are_quiet() {
     for seed in seeds(0, 12) {
         let mut dice = Dice(seed);
-        let place = Place::random(&mut dice, 82.0);
+        let place = Station::random(&mut dice, 82.0);
         let has_leap_day = seed % 3 == 0;
         let days = if has_leap_day { 366 } else { 365 };
         let made = Made::random(&mut dice, place, Span { has_leap_day, days, ..Span::YEAR });
@@ -258,7 +258,7 @@ fn light_off_the_clock_is_told() {
     let mut tried = 0;
     for seed in seeds(800, 20) {
         let mut dice = Dice(seed);
-        let place = Place::random(&mut dice, 70.0);
+        let place = Station::random(&mut dice, 70.0);
         if place.zone_h.abs() < 2.0 {
             continue;
         }
