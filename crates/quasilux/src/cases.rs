@@ -78,7 +78,7 @@ pub(crate) struct Verdict {
 }
 
 /// An expectation and its place in the file of its case.
-pub(crate) struct Placed<'a> {
+pub(crate) struct PlacedExpectation<'a> {
     pub(crate) expectation: &'a Expectation,
     pub(crate) place: Position,
 }
@@ -117,9 +117,9 @@ impl Case {
     }
 
     /// What it expects, and where that stands in its file.
-    pub(crate) fn expectations(&self) -> impl Iterator<Item = Placed<'_>> {
+    pub(crate) fn expectations(&self) -> impl Iterator<Item = PlacedExpectation<'_>> {
         let pairs = self.expect.iter().zip(&self.places);
-        pairs.map(|(it, place)| Placed { expectation: it.get_ref(), place: *place })
+        pairs.map(|(it, place)| PlacedExpectation { expectation: it.get_ref(), place: *place })
     }
 
     /// The estimators to try; `None` is the project's own.

@@ -263,7 +263,7 @@ mod tests {
         }
 
         /// Copies that leave a place for each that comes from the next one.
-        fn split(&self, at: usize) -> f64 {
+        fn copies_each(&self, at: usize) -> f64 {
             self.copies[at] / self.copies[at + 1]
         }
 
@@ -281,7 +281,7 @@ mod tests {
                     let [pdf_sr, back_sr] = [cos, back].map(|cos| cos * FRAC_1_PI);
                     let here = nodes[at];
                     weights = if *next < here {
-                        weights.scattered(cos, pdf_sr * self.split(here), back_sr)
+                        weights.scattered(cos, pdf_sr * self.copies_each(here), back_sr)
                     } else {
                         let settled = weights.at_copies(self.copies[here]);
                         settled.scattered_where_copied(cos, pdf_sr, back_sr, self.copies[here])
@@ -319,7 +319,7 @@ mod tests {
             }
             let cos = self.cos(last, last - 1);
             let back = self.cos(last, light) * FRAC_1_PI;
-            let pdf_sr = cos * FRAC_1_PI * self.split(last);
+            let pdf_sr = cos * FRAC_1_PI * self.copies_each(last);
             self.carried(landed.scattered(cos, pdf_sr, back), &nodes[1..])
         }
 
@@ -332,7 +332,7 @@ mod tests {
             };
             let connected = (0..=surfaces).map(|of_light| {
                 let at = surfaces - of_light;
-                let back_to_eye_sr = self.split(at) * back_sr(at, at.saturating_sub(1));
+                let back_to_eye_sr = self.copies_each(at) * back_sr(at, at.saturating_sub(1));
                 let to_eye = self.of_eye(at).towards(back_to_eye_sr);
                 if of_light == 0 {
                     let hit = match self.is_point {
@@ -344,7 +344,7 @@ mod tests {
                 let next = at + 1;
                 let to_light = self.of_light(next).towards(back_sr(next, next + 1));
                 of_connection(
-                    product(self.split(next) * self.drawn_m2(next, at), to_eye),
+                    product(self.copies_each(next) * self.drawn_m2(next, at), to_eye),
                     product(self.drawn_m2(at, next), to_light),
                 )
             });

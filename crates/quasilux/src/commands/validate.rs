@@ -3,7 +3,7 @@
 
 use super::run::simulate;
 use crate::arguments::{SimulationArguments, ValidateArguments};
-use crate::cases::{Case, Placed, Verdict};
+use crate::cases::{Case, PlacedExpectation, Verdict};
 use crate::exit::{CliError, Exit};
 use crate::print::print;
 use crate::{interrupt, project};
@@ -59,7 +59,7 @@ fn case_files(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
 /// The verdicts of all expectations of a case.
 fn judge(path: &Path, case: &Case, report: &Report) -> Result<Vec<Verdict>, CliError> {
     let mut verdicts = Vec::new();
-    for Placed { expectation, place } in case.expectations() {
+    for PlacedExpectation { expectation, place } in case.expectations() {
         verdicts.extend(expectation.judge(report).map_err(|error| {
             let message = format!("case \"{}\" ({}): {error}", case.name, case.source);
             CliError::in_file(path.display(), Some(place), message)
