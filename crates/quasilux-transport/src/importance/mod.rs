@@ -6,9 +6,9 @@
 //! there is and its importance to the sensors; [`weight_windows`] then say how many photons
 //! should follow each that lands, and [`guiding_tree`] in which directions. The survey has pilot
 //! rays of its own, their number is fixed and their coordinates serve nothing else: whatever it
-//! says, the estimate has the same mean. Light subpaths of the default take only the number of their
-//! [`copies`] from it. It also predicts what guiding saves; where that is little,
-//! as in a plain room, photons are left alone.
+//! says, the estimate has the same mean. Light subpaths of the default take only the number of
+//! their [`copies`] from it. It also predicts what guiding saves; where that is little, as in a
+//! plain room, photons are left alone.
 
 mod cells;
 mod copies;
