@@ -3,17 +3,23 @@
 
 use super::cells::Regions;
 use super::connect_far_cells;
+use super::flux_and_importance::{FluxAndImportance, landing};
 use super::guiding_tree::GuidingTree;
-use super::survey::Survey;
-use super::weight_windows::importance_weights;
+use super::survey::{PilotPhoton, Survey};
+use super::weight_windows::{importance_weights, next_squares};
 use crate::codec::Writer;
 use crate::context::Context;
 use crate::spectrum::Spectrum;
+use crate::stats::efficiency::Performance;
 use crate::stats::targets::Target;
 use crate::world::Interaction;
+use quasilux_sampling::Sampler;
 
 /// Copies at most: rarer light is left to the bound.
 const MAX_COPIES: f64 = 64.0;
+/// Light subpaths have copies where the same error then costs this many times fewer rays: the bound
+/// on unseen light doubles with them, and takes as many more.
+const WORTHWHILE: f64 = 2.0;
 
 /// How many copies of a light subpath leave each surveyed cell on average, were nothing absorbed.
 pub(crate) struct Copies {
@@ -31,18 +37,27 @@ impl Copies {
     }
 
     /// By a survey of the scene: in proportion to the importance of what leaves a cell, in the mean
-    /// square over its next step, over the mean importance of what leaves where light lands first.
-    /// Powers of two, so the survey's noise changes few.
-    pub(crate) fn new<S: Spectrum>(context: &Context<'_, S>, targets: &[Target]) -> Self {
-        let Some(mut survey) = Survey::new(context, targets) else { return Self::single(0) };
+    /// square over its next step, over the mean importance of what leaves where the photons that
+    /// lights `emit` land first. The mean is over their number, whatever they carry: where a faint
+    /// lamp has its photons, copies would cost more than they bring. Powers of two, so the survey's
+    /// noise changes few.
+    pub(crate) fn new<S: Spectrum>(
+        context: &Context<'_, S>,
+        targets: &[Target],
+        emit: impl Fn(&mut Sampler<'_>) -> Option<PilotPhoton> + Sync,
+    ) -> Self {
+        let Some(mut survey) = Survey::new(context, targets, emit) else { return Self::single(0) };
         let solution = connect_far_cells(context, &mut survey, 1);
         let Some(solution) = solution else { return Self::single(survey.rays) };
         let even = vec![GuidingTree::even(); survey.known.len()];
-        let weights = importance_weights(&survey, &solution, &even);
+        let weights = importance_weights(&survey, &solution, &even, |first| first.photons);
         let copies = |weight: f64| libm::exp2(libm::round(-libm::log2(weight)));
         let by_cell = weights.into_iter().map(|weight| copies(weight).clamp(1.0, MAX_COPIES));
         let by_cell: Vec<f64> = by_cell.collect();
-        let regions = by_cell.iter().any(|copies| *copies > 1.0).then(|| survey.regions());
+        let single = vec![1.0; by_cell.len()];
+        let [without, with] = [&single, &by_cell].map(|it| predict(&survey, &solution, it));
+        let is_worthwhile = without.cost_of_error() > WORTHWHILE * with.cost_of_error();
+        let regions = is_worthwhile.then(|| survey.regions());
         Self { regions, by_cell, rays: survey.rays }
     }
 
@@ -62,4 +77,39 @@ impl Copies {
         self.regions.iter().for_each(|regions| regions.put(out));
         out.value(&self.by_cell);
     }
+}
+
+/// Predictions for one emitted photon: its rays, and the variance of the sum over the sensors of
+/// what it gives to each, were nothing but photons seen. As for windows
+/// ([`super::weight_windows`]), but photons have the weights that their lights gave them.
+fn predict(survey: &Survey, solution: &FluxAndImportance, copies: &[f64]) -> Performance {
+    let known = &survey.known;
+    let even = GuidingTree::even();
+    let next_square = next_squares(survey, solution, known.iter().map(|_| &even));
+    let photons = landing(survey, |first| first.photons);
+    let squares = landing(survey, |first| first.squares);
+    let mut performance = Performance { rays: 1.0, variance: 0.0 };
+    for (cell, from) in known.iter().enumerate() {
+        let leaving = from.albedo * copies[cell];
+        let d = solution.leaving_importance[cell];
+        performance.rays += photons[cell] * leaving;
+        let of_next = (next_square[cell] - d * d).max(0.0);
+        performance.variance += squares[cell] * from.albedo / copies[cell] * of_next;
+    }
+    let mut decide = |cell: usize, square: f64, before: f64| {
+        let d = solution.leaving_importance[cell] / copies[cell];
+        let number = known[cell].albedo * copies[cell] / before;
+        let rest = number - number.floor();
+        performance.variance += square * before * rest * (1.0 - rest) * d * d;
+    };
+    for (cell, first) in survey.first_landings.iter().enumerate() {
+        decide(cell, first.squares, 1.0);
+    }
+    for (cell, from) in known.iter().enumerate() {
+        for step in from.steps() {
+            let square = squares[cell] * from.albedo * step.share * step.weight;
+            decide(step.cell as usize, square, copies[cell]);
+        }
+    }
+    performance
 }

@@ -12,7 +12,7 @@
 //! calculations", Nuclear Science and Engineering 137(1), 2001). Deviation: both systems are solved
 //! on one sampled matrix instead of by a deterministic code.
 
-use crate::importance::survey::{Survey, Surveyed, Transition};
+use crate::importance::survey::{FirstLandings, Survey, Surveyed, Transition};
 
 /// Sweeps after which a solution is taken as it is: it only guides.
 const MAX_SWEEPS: usize = 64;
@@ -32,7 +32,7 @@ pub(crate) struct FluxAndImportance {
 impl FluxAndImportance {
     /// Both systems solved; `None` where no sensor gets light that way.
     pub(crate) fn new(survey: &Survey, areas_m2: &[f64], flux_lm: f64) -> Option<Self> {
-        let landing = landing(survey);
+        let landing = landing(survey, |first| first.flux);
         let sensors_lx = sensors_lx(survey, areas_m2, &landing, flux_lm);
         let read = read_importance(survey, areas_m2, &sensors_lx, flux_lm)?;
         let leaving_importance = leaving_importance(survey, &read);
@@ -44,10 +44,10 @@ impl FluxAndImportance {
 }
 
 /// `phi = s + T^t a phi` by sweeps that push what is new in each cell on at once.
-fn landing(survey: &Survey) -> Vec<f64> {
+pub(super) fn landing(survey: &Survey, start: impl Fn(&FirstLandings) -> f64) -> Vec<f64> {
     let known = &survey.known;
     let mut landing = vec![0.0; known.len()];
-    let mut fresh = survey.first_landings.clone();
+    let mut fresh: Vec<f64> = survey.first_landings.iter().map(start).collect();
     for sweep in 0..MAX_SWEEPS {
         let mut largest_change = 0.0_f64;
         let mut push = |cell: usize| {

@@ -21,14 +21,17 @@ mod weight_windows;
 
 pub(crate) use copies::Copies;
 pub(crate) use guiding_tree::{GuidingTree, MAX_NODES, Node};
+pub(crate) use survey::PilotPhoton;
 pub(crate) use weight_windows::{Split, WeightWindows};
 
 use crate::context::Context;
+use crate::lights::Emitted;
 use crate::settings::Switch;
 use crate::spectrum::Spectrum;
 use crate::stats::efficiency::Performance;
 use crate::stats::targets::Target;
 use flux_and_importance::FluxAndImportance;
+use quasilux_sampling::Sampler;
 use survey::Survey;
 
 /// Photons are guided by themselves where the same error then costs this many times fewer rays. A
@@ -56,7 +59,8 @@ pub(crate) fn plan<S: Spectrum>(
     if importance == Switch::Off {
         return Plan::default();
     }
-    let Some(mut survey) = Survey::new(context, targets) else { return Plan::default() };
+    let survey = Survey::new(context, targets, |sampler| pilot_photon(context, sampler));
+    let Some(mut survey) = survey else { return Plan::default() };
     let Some(solution) = connect_far_cells(context, &mut survey, 1) else {
         return Plan { rays: survey.rays, ..Plan::default() };
     };
@@ -69,6 +73,16 @@ pub(crate) fn plan<S: Spectrum>(
     let refined = connect_far_cells(context, &mut survey, LOOKS);
     let windows = refined.map(|solution| WeightWindows::new(&survey, &solution));
     Plan { windows, rays: survey.rays }
+}
+
+/// A photon of those that lights emit in proportion to their flux.
+fn pilot_photon<S: Spectrum>(
+    context: &Context<'_, S>,
+    sampler: &mut Sampler<'_>,
+) -> Option<PilotPhoton> {
+    let Emitted { emission, share, .. } =
+        context.lights.emit(&context.world, context.purposes, sampler)?;
+    Some(PilotPhoton { emission, share })
 }
 
 /// Connects cells over distances, to those of most importance by the solution so far, and solves

@@ -53,8 +53,8 @@ pub(crate) struct Survey {
     pub(crate) sensors: Vec<Surveyed>,
     /// Stride of the surveyed sensors in all targets.
     pub(crate) sensor_step: usize,
-    /// Share of the photons that land first in each known cell.
-    pub(crate) first_landings: Vec<f64>,
+    /// What lands first in each known cell.
+    pub(crate) first_landings: Vec<FirstLandings>,
     pub(crate) rays: u64,
     /// Rays sent on from cells.
     sent: u64,
@@ -97,6 +97,23 @@ pub(crate) struct Transition {
     far_per_m2: f32,
     /// The point of the unit square that its direction comes from.
     pub(crate) u: [f32; 2],
+}
+
+/// A photon that leaves its light.
+pub(crate) struct PilotPhoton {
+    pub(crate) emission: Emission,
+    /// Its flux over that of a photon of all lights.
+    pub(crate) share: f64,
+}
+
+/// Photons that land in a cell before any other, on average over all photons.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct FirstLandings {
+    pub(crate) photons: f64,
+    /// Flux, as a share of what all lights emit.
+    pub(crate) flux: f64,
+    /// The squares of their shares.
+    pub(crate) squares: f64,
 }
 
 /// A sensor point with what its rays found.
@@ -193,8 +210,13 @@ impl<S: Spectrum> FarConnections<'_, '_, '_, S> {
 }
 
 impl Survey {
-    /// Traces rays from all lights and from some of the targets; `None` where there is nothing.
-    pub(crate) fn new<S: Spectrum>(context: &Context<'_, S>, targets: &[Target]) -> Option<Self> {
+    /// Traces rays from all lights, which `emit` the photons of an estimator, and from some of the
+    /// targets; `None` where there is nothing.
+    pub(crate) fn new<S: Spectrum>(
+        context: &Context<'_, S>,
+        targets: &[Target],
+        emit: impl Fn(&mut Sampler<'_>) -> Option<PilotPhoton> + Sync,
+    ) -> Option<Self> {
         let cells = Cells::new(&context.world)?;
         let lights = context.lights.pointlikes.len().max(1);
         let most_sensors = MAX_SENSORS.min(MAX_LIT / lights).max(1);
@@ -208,7 +230,7 @@ impl Survey {
             rays: 0,
             sent: 0,
         };
-        survey.sample_from_lights(context);
+        survey.sample_from_lights(context, emit);
         survey.sample_from_sensors(context, targets);
         survey.explore(context, CELL_RAYS);
         Some(survey)
@@ -265,18 +287,26 @@ impl Survey {
         }
     }
 
-    fn sample_from_lights<S: Spectrum>(&mut self, context: &Context<'_, S>) {
+    fn sample_from_lights<S: Spectrum>(
+        &mut self,
+        context: &Context<'_, S>,
+        emit: impl Fn(&mut Sampler<'_>) -> Option<PilotPhoton> + Sync,
+    ) {
         let points = context.points(0, Stream::Survey(0));
         let fly = |index: u64| {
             let mut sampler = Sampler::new(&points, index);
-            let emitted = context.lights.emit(&context.world, context.purposes, &mut sampler)?;
-            Some((emitted.share, fly(context, emitted.emission, &mut sampler)))
+            let PilotPhoton { emission, share } = emit(&mut sampler)?;
+            Some((share, fly(context, emission, &mut sampler)))
         };
         let flown: Vec<Option<(f64, Flown)>> = (0..PHOTONS).into_par_iter().map(fly).collect();
         for (share, flown) in flown.into_iter().flatten() {
             if let Some(Transition { cell, weight, .. }) = self.enter(context, flown) {
-                self.first_landings.resize(self.known.len(), 0.0);
-                self.first_landings[cell as usize] += share * weight / PHOTONS as f64;
+                self.first_landings.resize(self.known.len(), FirstLandings::default());
+                let FirstLandings { photons, flux, squares } =
+                    &mut self.first_landings[cell as usize];
+                *photons += weight / PHOTONS as f64;
+                *flux += share * weight / PHOTONS as f64;
+                *squares += share * share * weight / PHOTONS as f64;
             }
         }
     }
@@ -310,7 +340,7 @@ impl Survey {
             let unfinished = (0..self.known.len()).filter(|&c| self.known[c].rays < rays_each);
             let round: Vec<usize> = unfinished.collect();
             if round.is_empty() {
-                self.first_landings.resize(self.known.len(), 0.0);
+                self.first_landings.resize(self.known.len(), FirstLandings::default());
                 return;
             }
             let jobs: Vec<(u64, usize, u32)> = round

@@ -16,7 +16,9 @@ fn rays_and_connections_share_all_light() {
     scene.sensors.push(level_grid(DVec3::ZERO, [12.0, 1.0], [12, 1]));
     let settings = Settings::default();
     let context = Context::<f64>::new(&scene, &settings);
-    let mut survey = Survey::new(&context, &targets(&scene)).expect("a room");
+    let mut survey =
+        Survey::new(&context, &targets(&scene), |sampler| pilot_photon(&context, sampler))
+            .expect("a room");
     let areas_m2 = areas_m2(&context, &survey);
     let all = |survey: &Survey| {
         let cells = survey.known.iter();

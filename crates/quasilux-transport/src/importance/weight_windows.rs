@@ -14,7 +14,7 @@ use crate::codec::Writer;
 use crate::importance::cells::Regions;
 use crate::importance::flux_and_importance::FluxAndImportance;
 use crate::importance::guiding_tree::{GuidingSample, GuidingTree};
-use crate::importance::survey::{Survey, SurveyCell, Transition};
+use crate::importance::survey::{FirstLandings, Survey, SurveyCell, Transition};
 use crate::stats::efficiency::Performance;
 use crate::world::Interaction;
 use rayon::prelude::*;
@@ -99,8 +99,8 @@ impl Performance {
             performance.rays += photons * split.expected;
             performance.variance += photons * split.weight * split.weight * of_next;
         };
-        for (cell, &photons) in survey.first_landings.iter().enumerate() {
-            land(cell, photons, 1.0);
+        for (cell, first) in survey.first_landings.iter().enumerate() {
+            land(cell, first.flux, 1.0);
         }
         for (cell, from) in known.iter().enumerate() {
             let window = &windows[cell];
@@ -142,7 +142,7 @@ impl Split {
 /// What the survey says of each known cell.
 fn importance_windows(survey: &Survey, solution: &FluxAndImportance) -> Vec<Window> {
     let guides = guides(survey, solution);
-    let weights = importance_weights(survey, solution, &guides);
+    let weights = importance_weights(survey, solution, &guides, |first| first.flux);
     let windows = weights.into_iter().zip(guides);
     windows.map(|(weight, guide)| Window { weight, guide }).collect()
 }
@@ -167,7 +167,7 @@ fn guides(survey: &Survey, solution: &FluxAndImportance) -> Vec<GuidingTree> {
 
 /// Mean squares of the importance, where they land, of photons that leave each known cell by its
 /// guide: over even rays, importance^2 / density.
-fn next_squares<'g>(
+pub(super) fn next_squares<'g>(
     survey: &Survey,
     solution: &FluxAndImportance,
     guides: impl Iterator<Item = &'g GuidingTree>,
@@ -184,11 +184,13 @@ fn next_squares<'g>(
 
 /// The weight with which photons leave each known cell: in inverse proportion to the root mean
 /// square of their next importance, which makes rays times variance least. Mean squares are
-/// those of the cells around.
+/// those of the cells around. Where
+/// photons `start`, by cells that they land in first, it is one on average.
 pub(super) fn importance_weights(
     survey: &Survey,
     solution: &FluxAndImportance,
     guides: &[GuidingTree],
+    start: impl Fn(&FirstLandings) -> f64,
 ) -> Vec<f64> {
     let squares = next_squares(survey, solution, guides.iter());
     let root_mean = |cell: &SurveyCell| {
@@ -198,14 +200,14 @@ pub(super) fn importance_weights(
         (sum / count).sqrt()
     };
     let importances: Vec<f64> = survey.known.iter().map(root_mean).collect();
-    let leaving = survey.first_landings.iter().zip(&survey.known);
-    let leaving = leaving.map(|(share, cell)| share * cell.albedo);
-    let total = leaving
-        .clone()
-        .zip(&importances)
-        .map(|(share, importance)| share * importance)
-        .sum::<f64>();
-    let mean_importance = total / leaving.sum::<f64>();
+    let leaving: Vec<f64> = survey
+        .first_landings
+        .iter()
+        .zip(&survey.known)
+        .map(|(first, cell)| start(first) * cell.albedo)
+        .collect();
+    let total: f64 = leaving.iter().zip(&importances).map(|(share, it)| share * it).sum();
+    let mean_importance = total / leaving.iter().sum::<f64>();
     let weight = |importance: &f64| (mean_importance / importance).clamp(LIGHTEST, HEAVIEST);
     if mean_importance > 0.0 {
         importances.iter().map(weight).collect()

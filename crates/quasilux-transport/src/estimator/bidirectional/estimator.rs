@@ -92,7 +92,9 @@ impl<'a, S: Spectrum> BidirectionalEstimator<'a, S> {
         let is_certified = settings.interval == IntervalKind::Certified;
         let may_copy = settings.importance != Switch::Off && context.max_bounces != Some(0);
         if may_copy && !is_certified {
-            engine.copies = Copies::new(context, &targets);
+            engine.copies = Copies::new(context, &targets, |sampler| {
+                engine.sources.pilot(&context.world, sampler)
+            });
             prepared_rays += engine.copies.rays;
         }
         prepared_rays += plan_joins(&mut engine, watch)?;

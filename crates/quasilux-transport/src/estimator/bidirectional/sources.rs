@@ -1,6 +1,7 @@
 //! Which light a photon leaves: half of the choices go by flux, half evenly, so that a faint lamp
 //! is never left out beside bright ones.
 
+use crate::importance::PilotPhoton;
 use crate::lights::{Emission, Emitted, LightKind, Lights, Line, SKY_MARGIN};
 use crate::spectrum::Spectrum;
 use crate::world::World;
@@ -114,6 +115,16 @@ impl<'l, 'a> Sources<'l, 'a> {
                 self.share(number) * ways.photons.pdf_line(ways.outside, way, &line)
             })
             .sum()
+    }
+
+    /// A photon for a survey.
+    pub(super) fn pilot<S: Spectrum>(
+        &self,
+        world: &World<S>,
+        sampler: &mut Sampler<'_>,
+    ) -> Option<PilotPhoton> {
+        let Photon { emission, flux_lm, .. } = self.emit(world, sampler)?;
+        Some(PilotPhoton { emission, share: flux_lm / self.lights.flux_lm })
     }
 
     /// A photon, by two coordinates and more for lights with an area.
