@@ -1,6 +1,7 @@
 //! How the fuzzer changes its files: by its own means and, as often, by those of the test suite.
 
-use quasilux_stats::damage::{Seeds, SplitMix64, mutate};
+use quasilux_stats::SplitMix64;
+use quasilux_stats::damage::{Seeds, mutate};
 use std::sync::OnceLock;
 
 /// Changes the first `length` of `bytes`, of which `room` may be used, and returns the new length.

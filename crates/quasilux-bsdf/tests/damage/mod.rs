@@ -8,7 +8,8 @@ pub(crate) mod glazing;
 mod surface;
 
 use quasilux_bsdf::{max_bsdf_memory_bytes, read_bsdf_named};
-use quasilux_stats::damage::{Outcome, Seeds, SplitMix64, check_message};
+use quasilux_stats::SplitMix64;
+use quasilux_stats::damage::{Outcome, Seeds, check_message};
 use std::path::{Path, PathBuf};
 
 /// Files made up for the purpose.

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use quasilux_bsdf::{Distribution, MeasuredBsdf, SheetDistribution};
 use quasilux_photometry::Angles;
-use quasilux_stats::damage::SplitMix64;
+use quasilux_stats::SplitMix64;
 
 /// A matrix with a basis of its own, trees of both ranks, DDR, ASTM and MERL.
 pub(crate) fn samples() -> Vec<Vec<u8>> {

@@ -12,7 +12,7 @@ use glam::DVec3;
 use quasilux_bsdf::{Distribution, GriddedTable, ScatteringMode, Side, read_merl};
 use quasilux_sampling::warp::{invert_disk, sample_disk};
 use quasilux_sampling::{PointSet, Randomization, Sequence, stream_key};
-use quasilux_stats::damage::SplitMix64;
+use quasilux_stats::SplitMix64;
 use quasilux_stats::{CellCount, chi_square_test, sidak, sphere_jacobian};
 use std::f64::consts::{PI, TAU};
 

@@ -42,7 +42,7 @@ pub use image::Image;
 pub use luminance::{LuminancePicture, luminance};
 pub use plan::{
     PlanAreaLight, PlanCamera, PlanGrid, PlanLuminaire, PlanMark, PlanPicture, PlanPoint,
-    PlanPoints, Surfaces, plan,
+    PlanPoints, Surfaces, first_of_each, plan,
 };
 pub use series::{LabelledImage, series};
 pub use sky::{SkyPicture, sky};

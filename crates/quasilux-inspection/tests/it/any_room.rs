@@ -1,11 +1,11 @@
 //! Wrong rooms at random: each fault is told at its section, and the same room without it is right.
 
 use crate::furnished::{Furnished, Lamp, Patch, v};
-use crate::random::Dice;
 use crate::room::{plate, shell};
 use crate::spoil::{Spoil, fault, quiet, told};
 use glam::DVec3;
 use quasilux_inspection::Check;
+use quasilux_stats::SplitMix64;
 
 const LUMINAIRES: &str = "[[luminaires]]";
 const SENSORS: &str = "[[sensors]]";
@@ -15,8 +15,8 @@ const OUTSIDE: &[Check] = &[Check::LampOutside];
 /// Moves a lamp; its number, from 1.
 fn move_lamp(
     room: &mut Furnished,
-    dice: &mut Dice,
-    place: impl Fn(&Furnished, &mut Dice, DVec3) -> DVec3,
+    dice: &mut SplitMix64,
+    place: impl Fn(&Furnished, &mut SplitMix64, DVec3) -> DVec3,
 ) -> usize {
     let number = dice.below(room.lamps.len());
     room.lamps[number].position = place(room, dice, room.lamps[number].position);
@@ -24,7 +24,7 @@ fn move_lamp(
 }
 
 /// Moves a lamp to 1 mm to 20 cm above the ceiling.
-fn lift(room: &mut Furnished, dice: &mut Dice) -> usize {
+fn lift(room: &mut Furnished, dice: &mut SplitMix64) -> usize {
     move_lamp(room, dice, |room, dice, at| at.with_z(room.size.z + dice.within(0.001, 0.2)))
 }
 
@@ -42,14 +42,14 @@ pub(crate) const LAMPS: &[Spoil] = &[
         Some(fault("below the floor", OUTSIDE, LUMINAIRES).at(number).saying("\"floor\""))
     },
     |room, dice| {
-        let behind = |room: &Furnished, dice: &mut Dice, at: DVec3| {
+        let behind = |room: &Furnished, dice: &mut SplitMix64, at: DVec3| {
             at.with_x(room.size.x + dice.within(0.01, 0.4))
         };
         let number = move_lamp(room, dice, behind);
         Some(fault("behind a wall", OUTSIDE, LUMINAIRES).at(number).saying("\"east\""))
     },
     |room, dice| {
-        let in_wall = |room: &Furnished, dice: &mut Dice, at: DVec3| {
+        let in_wall = |room: &Furnished, dice: &mut SplitMix64, at: DVec3| {
             at.with_y(room.size.y).with_z(dice.within(0.5, 0.9) * room.size.z)
         };
         let number = move_lamp(room, dice, in_wall);
@@ -72,8 +72,9 @@ pub(crate) const LAMPS: &[Spoil] = &[
 /// Their light comes to a room with windows, too.
 const FAR_LAMPS: &[Spoil] = &[
     |room, dice| {
-        let away =
-            |_: &Furnished, dice: &mut Dice, at: DVec3| at + DVec3::Y * dice.within(60.0, 900.0);
+        let away = |_: &Furnished, dice: &mut SplitMix64, at: DVec3| {
+            at + DVec3::Y * dice.within(60.0, 900.0)
+        };
         let number = move_lamp(room, dice, away);
         Some(fault("far away", OUTSIDE, LUMINAIRES).at(number))
     },
@@ -283,7 +284,7 @@ fn cameras_panels_and_walls() {
 }
 
 /// What is meant: light upward, points on floor and ceiling, on the wall, beside and under tables.
-const MEANT: &[fn(&mut Furnished, &mut Dice)] = &[
+const MEANT: &[fn(&mut Furnished, &mut SplitMix64)] = &[
     |room, dice| {
         let number = dice.below(room.lamps.len());
         room.lamps[number].position.z = dice.within(1.5, room.size.z - 0.3);

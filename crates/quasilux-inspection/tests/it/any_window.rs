@@ -2,11 +2,11 @@
 
 use crate::any_room::{GRIDS, LAMPS, SIZES};
 use crate::furnished::{Furnished, Lamp, Patch, v};
-use crate::random::Dice;
 use crate::room::{Face, body};
 use crate::spoil::{Spoil, fault, quiet, told};
 use glam::DVec3;
 use quasilux_inspection::Check;
+use quasilux_stats::SplitMix64;
 
 const OPENINGS: &str = "[[openings]]";
 const CLOSED: &[Check] = &[Check::OpeningClosed];
@@ -76,7 +76,7 @@ fn sensors_and_units_are_told_by_day() {
 }
 
 /// A frame around the hole, blinds and shelves behind it, a pier in it.
-const MEANT: &[fn(&mut Furnished, &mut Dice)] = &[
+const MEANT: &[fn(&mut Furnished, &mut SplitMix64)] = &[
     |room, dice| {
         let opening = room.opening.as_mut().expect("a window");
         opening.origin.y += dice.within(-0.1, 0.0);
@@ -133,12 +133,12 @@ fn openings_that_are_meant_so_are_right() {
 #[test]
 fn light_by_night_and_clocks_of_other_continents_are_told() {
     for seed in 600..640 {
-        let mut dice = Dice(seed);
+        let mut dice = SplitMix64::new(seed);
         let longitude_deg = dice.within(-170.0, 170.0);
         let zone_h = (longitude_deg / 15.0 + dice.within(-0.5, 0.5)).round();
         // At noon and at midnight everywhere between the polar circles.
         let warned = |zone_h: f64, hour: u32, sky: &str| {
-            let mut room = Furnished::with_window(&mut Dice(seed));
+            let mut room = Furnished::with_window(&mut SplitMix64::new(seed));
             room.sky = format!(
                 "{sky}horizontal_illuminance_lx = 20000\n[site]\nlatitude_deg = {}\n\
                  longitude_deg = {longitude_deg:.2}\ntime_zone_h = {zone_h}\n[sun]\n\

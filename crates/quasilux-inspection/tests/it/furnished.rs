@@ -1,9 +1,9 @@
 //! Rooms at random in their own frame, turned and moved into the world: furniture, screens, lamps,
 //! a workplane, and in some a window with its opening, a deep reveal and a house across the street.
 
-use crate::random::Dice;
 use crate::room::{Case, Face, LAMP, body, plate, shell};
 use glam::{DMat3, DVec3};
+use quasilux_stats::SplitMix64;
 use std::fmt::Write;
 
 const SKY: &str = "[sky]\nmodel = \"cie\"\ntype = 1\nhorizontal_illuminance_lx = 10000\n";
@@ -66,7 +66,7 @@ pub(crate) struct Furnished {
 
 impl Furnished {
     /// Without a window.
-    pub(crate) fn new(dice: &mut Dice) -> Self {
+    pub(crate) fn new(dice: &mut SplitMix64) -> Self {
         let size = v(dice.within(2.0, 30.0), dice.within(2.0, 15.0), dice.within(2.3, 6.0));
         let angle_deg = match dice.below(3) {
             0 => 90.0 * dice.below(4) as f64,
@@ -105,7 +105,7 @@ impl Furnished {
     }
 
     /// With a window in the wall at y = 0.
-    pub(crate) fn with_window(dice: &mut Dice) -> Self {
+    pub(crate) fn with_window(dice: &mut SplitMix64) -> Self {
         let mut room = Self::new(dice);
         let width = dice.within(0.25, 0.6) * room.size.x;
         let left = dice.within(0.05, 0.95) * (room.size.x - width);
@@ -130,7 +130,7 @@ impl Furnished {
     }
 
     /// Rows of lamps in the upper part, at least two.
-    fn hang_lamps(&mut self, dice: &mut Dice) {
+    fn hang_lamps(&mut self, dice: &mut SplitMix64) {
         let columns = 2 + dice.below(3);
         let rows = 1 + dice.below(2);
         let z = self.size.z - dice.within(0.01, 0.2 * self.size.z);
@@ -143,7 +143,7 @@ impl Furnished {
     }
 
     /// Tables below the workplane, cabinets along a wall and screens.
-    fn furnish(&mut self, dice: &mut Dice, margin: f64) {
+    fn furnish(&mut self, dice: &mut SplitMix64, margin: f64) {
         for _ in 0..dice.below(5) {
             let edge = v(dice.within(0.7, 1.6), dice.within(0.6, 0.9), dice.within(0.02, 0.05));
             let room = self.size - edge;

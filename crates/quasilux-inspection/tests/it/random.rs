@@ -3,27 +3,7 @@
 use crate::room::{Case, body, shell};
 use glam::{DMat3, DVec3};
 use quasilux_inspection::Check;
-
-/// Numbers from a counter (Steele, Lea and Flood 2014, SplitMix64).
-pub(crate) struct Dice(pub(crate) u64);
-
-impl Dice {
-    pub(crate) fn within(&mut self, low: f64, high: f64) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        low + (high - low) * ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    pub(crate) fn below(&mut self, count: usize) -> usize {
-        (self.within(0.0, count as f64) as usize).min(count - 1)
-    }
-
-    pub(crate) fn pick<T: Copy>(&mut self, from: &[T]) -> T {
-        from[self.below(from.len())]
-    }
-}
+use quasilux_stats::SplitMix64;
 
 struct RandomRoom {
     case: Case,
@@ -33,7 +13,7 @@ struct RandomRoom {
 
 /// A room of any usual size with boxes in it and a row of lamps below the ceiling.
 fn room(seed: u64) -> RandomRoom {
-    let mut dice = Dice(seed);
+    let mut dice = SplitMix64::new(seed);
     let size = DVec3::new(dice.within(2.5, 20.0), dice.within(2.5, 12.0), dice.within(2.3, 6.0));
     let origin = DVec3::new(dice.within(-5.0, 5.0), dice.within(-5.0, 5.0), 0.0);
     let mut case = Case::new();
@@ -94,7 +74,7 @@ fn a_lamp_above_the_ceiling_is_told_in_any_room() {
             // Without a light in the room the project is refused.
             continue;
         }
-        let mut dice = Dice(seed ^ 0xABCD);
+        let mut dice = SplitMix64::new(seed ^ 0xABCD);
         let wrong = (dice.within(0.0, lamps as f64) as usize).min(lamps - 1);
         let above = height_m + dice.within(0.005, 0.9);
         let mut number = 0;
@@ -126,7 +106,8 @@ fn a_lamp_above_the_ceiling_is_told_in_any_room() {
 fn a_missing_wall_is_told_in_any_room() {
     for seed in 0..100 {
         let mut case = room(seed).case;
-        let missing = case.faces.remove((Dice(seed ^ 0x77).within(0.0, 6.0) as usize).min(5));
+        let missing =
+            case.faces.remove((SplitMix64::new(seed ^ 0x77).within(0.0, 6.0) as usize).min(5));
         // A material without faces would be refused.
         let mut walls = case.faces.iter_mut().filter(|face| face.material == "wall");
         walls.next().expect("a wall").material = missing.material;

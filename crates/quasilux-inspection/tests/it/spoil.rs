@@ -1,9 +1,9 @@
 //! Spoils rooms at random, and asks whether each fault is told.
 
 use crate::furnished::Furnished;
-use crate::random::Dice;
 use crate::room::Case;
 use quasilux_inspection::{Check, Finding};
+use quasilux_stats::SplitMix64;
 use std::ops::Range;
 
 /// A fault, and where it has to be told.
@@ -17,7 +17,7 @@ pub(crate) struct Fault {
 }
 
 /// Puts a fault in a room; `None` where the room has no place for it.
-pub(crate) type Spoil = fn(&mut Furnished, &mut Dice) -> Option<Fault>;
+pub(crate) type Spoil = fn(&mut Furnished, &mut SplitMix64) -> Option<Fault>;
 
 /// One that has to be told by any of some checks, at the first section of a kind.
 pub(crate) fn fault(name: &'static str, checks: &'static [Check], section: &'static str) -> Fault {
@@ -52,18 +52,20 @@ fn said(case: &Case) -> Vec<String> {
 }
 
 /// Each room is right, and wrong in each of these ways.
-pub(crate) fn told(seeds: Range<u64>, new: fn(&mut Dice) -> Furnished, spoils: &[Spoil]) {
+pub(crate) fn told(seeds: Range<u64>, new: fn(&mut SplitMix64) -> Furnished, spoils: &[Spoil]) {
     let mut wrong = Vec::new();
     let mut tried = vec![0_u32; spoils.len()];
     for seed in seeds {
-        let room = new(&mut Dice(seed));
+        let room = new(&mut SplitMix64::new(seed));
         let alarms = said(&room.case());
         if !alarms.is_empty() {
             wrong.push(format!("room {seed} is right:\n{}", alarms.join("\n")));
         }
         for (spoil, tried) in spoils.iter().zip(&mut tried) {
             let mut room = room.clone();
-            let Some(fault) = spoil(&mut room, &mut Dice(seed ^ 0x5EED)) else { continue };
+            let Some(fault) = spoil(&mut room, &mut SplitMix64::new(seed ^ 0x5EED)) else {
+                continue;
+            };
             *tried += 1;
             let case = room.case();
             if !fault.is_told(&case.project, &case.findings()) {
@@ -78,14 +80,14 @@ pub(crate) fn told(seeds: Range<u64>, new: fn(&mut Dice) -> Furnished, spoils: &
 /// Each room stays right with each of these changes.
 pub(crate) fn quiet(
     seeds: Range<u64>,
-    new: fn(&mut Dice) -> Furnished,
-    changes: &[fn(&mut Furnished, &mut Dice)],
+    new: fn(&mut SplitMix64) -> Furnished,
+    changes: &[fn(&mut Furnished, &mut SplitMix64)],
 ) {
     let mut wrong = Vec::new();
     for seed in seeds {
         for (number, change) in changes.iter().enumerate() {
-            let mut room = new(&mut Dice(seed));
-            change(&mut room, &mut Dice(seed ^ 0x5EED));
+            let mut room = new(&mut SplitMix64::new(seed));
+            change(&mut room, &mut SplitMix64::new(seed ^ 0x5EED));
             let alarms = said(&room.case());
             if !alarms.is_empty() {
                 wrong.push(format!("room {seed}, change {number}:\n{}", alarms.join("\n")));

@@ -9,7 +9,8 @@ mod samples;
 use quasilux_photometry::{
     ParseError, Parsed, max_read_memory_bytes, read_ies, read_ldt, read_tm33,
 };
-use quasilux_stats::damage::{Outcome, Seeds, SplitMix64, check_message};
+use quasilux_stats::SplitMix64;
+use quasilux_stats::damage::{Outcome, Seeds, check_message};
 use std::path::{Path, PathBuf};
 
 /// A format and its reader.

@@ -18,8 +18,9 @@ pub(super) fn tell(
     let pairs = weather.hours.windows(2).zip(&places[1.min(places.len())..]);
     let mut turns = 0;
     for (pair, place) in pairs {
-        // One turn of the year is where a file begins in the middle of it.
-        let is_turn = pair[0].month == 12 && pair[1].month == 1;
+        // One turn of the year is where a file begins in the middle of it, to a time before that.
+        let is_before_all = pair[1].time() < weather.hours[0].time();
+        let is_turn = pair[0].month == 12 && pair[1].month == 1 && is_before_all;
         turns += u32::from(is_turn);
         if pair[1].time() <= pair[0].time() && !(is_turn && turns == 1) {
             let found = format!("{} after {}", said(&pair[1]), said(&pair[0]));

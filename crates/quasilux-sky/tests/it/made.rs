@@ -3,9 +3,9 @@
 //! The sun is that of J. W. Spencer, "Fourier series representation of the position of the sun"
 //! (Search 2, 1971), within half a degree; days are clear, broken or overcast.
 
-use crate::dice::Dice;
 use libm::{acos, cos, exp, sin};
 use quasilux_sky::{ParsedWeather, Weather, WeatherWarning};
+use quasilux_stats::SplitMix64;
 use std::f64::consts::{PI, TAU};
 
 /// Fields of a line of an EPW file.
@@ -25,7 +25,7 @@ pub(crate) struct Station {
 
 impl Station {
     /// Anywhere up to this latitude, by a clock that is up to an hour off.
-    pub(crate) fn random(dice: &mut Dice, most_deg: f64) -> Self {
+    pub(crate) fn random(dice: &mut SplitMix64, most_deg: f64) -> Self {
         let longitude_deg = dice.within(-165.0, 165.0);
         let zone_h = (longitude_deg / 15.0 + dice.within(-0.5, 0.5)).round();
         Self { latitude_deg: dice.within(-most_deg, most_deg), longitude_deg, zone_h }
@@ -122,7 +122,7 @@ impl Span {
 }
 
 impl Made {
-    pub(crate) fn random(dice: &mut Dice, place: Station, span: Span) -> Self {
+    pub(crate) fn random(dice: &mut SplitMix64, place: Station, span: Span) -> Self {
         let Span { first, days, has_leap_day, an_hour } = span;
         let mut dates = Vec::new();
         for (month, length) in (1..).zip(MONTHS) {

@@ -1,7 +1,6 @@
 //! The skies and the sun against closed forms, quadrature of another kind, and other programs.
 
 mod cie;
-mod dice;
 mod levels;
 mod made;
 mod odd_files;

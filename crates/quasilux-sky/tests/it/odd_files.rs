@@ -1,9 +1,9 @@
 //! Right files at random of which nothing is told, and the same with one oddity each: their light
 //! comes out right, or what is odd is told.
 
-use crate::dice::Dice;
 use crate::made::{DIFFUSE, DIRECT, Exposure, File, MINUTE, Made, Span, Station, told};
 use quasilux_sky::{ParsedWeather, Weather, WeatherWarning};
+use quasilux_stats::SplitMix64;
 
 /// So many from a first one on, or ten times as many.
 fn seeds(first: u64, count: u64) -> std::ops::Range<u64> {
@@ -12,13 +12,13 @@ fn seeds(first: u64, count: u64) -> std::ops::Range<u64> {
 }
 
 /// An hour a line, of a year.
-fn year(dice: &mut Dice, most_deg: f64) -> Made {
+fn year(dice: &mut SplitMix64, most_deg: f64) -> Made {
     let place = Station::random(dice, most_deg);
     Made::random(dice, place, Span::YEAR)
 }
 
 /// Some weeks of any season, with so many intervals an hour.
-fn season(dice: &mut Dice, an_hour: u32, days: u32) -> Made {
+fn season(dice: &mut SplitMix64, an_hour: u32, days: u32) -> Made {
     let place = Station::random(dice, 60.0);
     let first = dice.below(365 - days as usize) as u32;
     let span = Span { first, days, an_hour, ..Span::YEAR };
@@ -35,7 +35,7 @@ fn expect(name: &str, parsed: &ParsedWeather, exposure: Exposure, kinds: &[Weath
 #[test]
 fn right_files_are_quiet() {
     for seed in seeds(0, 12) {
-        let mut dice = Dice(seed);
+        let mut dice = SplitMix64::new(seed);
         let place = Station::random(&mut dice, 82.0);
         let has_leap_day = seed % 3 == 0;
         let days = if has_leap_day { 366 } else { 365 };
@@ -64,7 +64,7 @@ fn right_files_are_quiet() {
 #[test]
 fn hours_of_sun_alone_make_a_year() {
     for seed in seeds(100, 8) {
-        let mut dice = Dice(seed);
+        let mut dice = SplitMix64::new(seed);
         let mut made = year(&mut dice, 75.0);
         made.slots.retain(|slot| slot.altitude_deg > 0.0);
         let read = made.wea(1).read();
@@ -107,7 +107,7 @@ fn shorter_intervals_keep_light_and_times() {
     use Minutes::{Begin, End, EndOfHourIsZero, Meaningless};
     use WeatherWarning::{OtherThanAYear, OtherThanDeclared, PowerOrEnergy};
     for seed in seeds(200, 9) {
-        let mut dice = Dice(seed);
+        let mut dice = SplitMix64::new(seed);
         let an_hour = dice.pick(&[2, 3, 4, 6]);
         let made = season(&mut dice, an_hour, 35);
         let unit = dice.pick(&[1.0, 1.0 / f64::from(an_hour)]);
@@ -134,7 +134,7 @@ fn shorter_intervals_keep_light_and_times() {
 #[test]
 fn declared_intervals_that_are_not_there_are_told() {
     for seed in seeds(300, 10) {
-        let mut dice = Dice(seed);
+        let mut dice = SplitMix64::new(seed);
         let made = season(&mut dice, 1, 60);
         let declared = dice.pick(&[2, 4, 6, 60]);
         let minute = dice.pick(&["0", "60", "30"]);
@@ -150,7 +150,7 @@ fn declared_intervals_that_are_not_there_are_told() {
 fn missing_marks_are_no_light() {
     const MARKS: [&str; 9] = ["9999", "9999.0", "99999", "60000", "-9999", "-999", "-99", "", "  "];
     for seed in seeds(400, 9) {
-        let mut dice = Dice(seed);
+        let mut dice = SplitMix64::new(seed);
         let mut made = season(&mut dice, 1, 60);
         let mut file = made.epw(1.0);
         let mark = MARKS[seed as usize % MARKS.len()];
@@ -175,7 +175,7 @@ fn missing_marks_are_no_light() {
 fn lines_out_of_order_or_twice_are_told() {
     use WeatherWarning::{OtherThanAYear, OutOfOrder};
     for seed in seeds(500, 4) {
-        let mut dice = Dice(seed);
+        let mut dice = SplitMix64::new(seed);
         let made = year(&mut dice, 70.0);
         let mut swapped = made.epw(1.0);
         let count = swapped.rows.len();
@@ -205,7 +205,7 @@ fn lines_out_of_order_or_twice_are_told() {
 fn light_beyond_what_can_be_is_told() {
     use WeatherWarning::{LightByNight, MoreThanPossible};
     for seed in seeds(600, 7) {
-        let mut dice = Dice(seed);
+        let mut dice = SplitMix64::new(seed);
         let made = year(&mut dice, 65.0);
         let by_day = made.above(10.0);
         let night: Vec<usize> =
@@ -235,7 +235,7 @@ fn light_beyond_what_can_be_is_told() {
 #[test]
 fn clocks_of_other_places_are_told() {
     for seed in seeds(700, 15) {
-        let mut dice = Dice(seed);
+        let mut dice = SplitMix64::new(seed);
         let mut made = season(&mut dice, 1, 40);
         made.place.zone_h += dice.pick(&[-1.0, 1.0]) * dice.within(5.0, 11.0).round();
         made.place.zone_h = (made.place.zone_h + 36.0).rem_euclid(24.0) - 12.0;
@@ -257,7 +257,7 @@ fn clocks_of_other_places_are_told() {
 fn light_off_the_clock_is_told() {
     let mut tried = 0;
     for seed in seeds(800, 20) {
-        let mut dice = Dice(seed);
+        let mut dice = SplitMix64::new(seed);
         let place = Station::random(&mut dice, 70.0);
         if place.zone_h.abs() < 2.0 {
             continue;
@@ -282,7 +282,7 @@ fn light_off_the_clock_is_told() {
 #[test]
 fn a_week_is_no_year() {
     for seed in seeds(900, 10) {
-        let mut dice = Dice(seed);
+        let mut dice = SplitMix64::new(seed);
         let days = 1 + dice.below(30) as u32;
         let made = season(&mut dice, 1, days);
         for read in [made.epw(1.0).read(), made.wea(1).read()] {
@@ -297,7 +297,7 @@ fn a_week_is_no_year() {
 #[test]
 fn what_is_written_otherwise_is_refused() {
     for seed in seeds(1000, 10) {
-        let mut dice = Dice(seed);
+        let mut dice = SplitMix64::new(seed);
         let made = season(&mut dice, 1, 5);
         let refused =
             |name: &str, file: &File, line: usize| match Weather::parse(file.text().as_bytes()) {
@@ -331,7 +331,7 @@ fn what_is_written_otherwise_is_refused() {
 #[test]
 fn parts_of_hours_in_wea_keep_their_light() {
     for seed in seeds(1100, 12) {
-        let mut dice = Dice(seed);
+        let mut dice = SplitMix64::new(seed);
         let an_hour = dice.pick(&[2, 3, 4, 6]);
         let mut made = season(&mut dice, an_hour, 30);
         if seed % 2 == 0 {

@@ -2,23 +2,8 @@
 
 use libm::{asin, cos, ldexp, sin};
 use quasilux_sky::{Distribution, Panorama, PanoramaWarning, Sky, SkyLevel, SkyPoint};
+use quasilux_stats::SplitMix64;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
-
-/// A deterministic stream of numbers: splitmix64 (Steele, Lea and Flood 2014).
-struct Stream(u64);
-
-impl Stream {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        z ^ (z >> 31)
-    }
-
-    fn below(&mut self, n: usize) -> usize {
-        (self.next() % n as u64) as usize
-    }
-}
 
 /// How a scanline is written.
 #[derive(Clone, Copy, PartialEq)]
@@ -68,7 +53,7 @@ fn picture(header: &str, width: usize, pixels: &[[u8; 4]], writing: Writing) -> 
 }
 
 /// Pixels in runs; none looks like a mark of a run.
-fn random_pixels(count: usize, numbers: &mut Stream) -> Vec<[u8; 4]> {
+fn random_pixels(count: usize, numbers: &mut SplitMix64) -> Vec<[u8; 4]> {
     let mut pixels = Vec::new();
     while pixels.len() < count {
         let colour = [0, 1, 2].map(|_| 3 + numbers.below(253) as u8);
@@ -94,7 +79,7 @@ fn near(found: f64, expected: f64, share: f64) -> bool {
 /// the picture at some azimuth.
 #[test]
 fn pixels_are_where_they_belong() {
-    let mut numbers = Stream(1);
+    let mut numbers = SplitMix64::new(1);
     for (width, writing) in [
         (8, Writing::Planes),
         (600, Writing::Planes),
@@ -134,7 +119,7 @@ fn illuminances_are_exact() {
     let even = Panorama::parse(&even).unwrap().panorama;
     let expected = PI * 179.0 * 128.5;
     assert!(near(even.horizontal_illuminance_lx(), expected, 1e-12));
-    let mut numbers = Stream(2);
+    let mut numbers = SplitMix64::new(2);
     for (width, height) in [(2, 1), (10, 5), (60, 30), (126, 63)] {
         let pixels = random_pixels(width * height, &mut numbers);
         let panorama = Panorama::parse(&picture("", width, &pixels, Writing::Flat)).unwrap();
@@ -266,7 +251,7 @@ fn bright_pixels_are_those_far_above_the_mean() {
     let panorama = parse(&pixels);
     let bright = panorama.bright_pixels();
     assert_eq!(bright.iter().map(|pixel| pixel.index).collect::<Vec<_>>(), suns);
-    let mut numbers = Stream(5);
+    let mut numbers = SplitMix64::new(5);
     for pixel in &bright {
         let row = pixel.index / 50;
         let [top, bottom] = [row, row + 1].map(|row| cos((PI * row as f64 / 25.0).min(FRAC_PI_2)));

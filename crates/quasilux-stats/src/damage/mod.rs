@@ -5,12 +5,11 @@
 
 mod kinds;
 mod mutator;
-mod random;
 
 pub use kinds::{Kind, examine_kinds};
 pub use mutator::mutate;
-pub use random::SplitMix64;
 
+use crate::SplitMix64;
 use std::ops::Range;
 use std::panic::RefUnwindSafe;
 use std::sync::atomic::{AtomicU64, Ordering};

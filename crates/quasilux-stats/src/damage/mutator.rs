@@ -3,7 +3,7 @@
 //! Bytes are what a disk damages. Numbers, lines and encodings are what other programs get wrong,
 //! and what brings a file past the first check of its reader.
 
-use super::random::SplitMix64;
+use crate::SplitMix64;
 use std::ops::Range;
 
 /// No file grows beyond this, however often parts of it are repeated.

@@ -6,40 +6,29 @@ use crate::spotlight::spotlight;
 use glam::{DMat3, DVec3};
 use quasilux_photometry::{LuminousShape, Solid};
 use quasilux_scene::{Light, Scene};
+use quasilux_stats::SplitMix64;
 use quasilux_transport::{EstimatorKind, Interval, Settings, simulate};
 
 /// Fewer than are drawn from.
 const GROUP: usize = 10;
 const GROUPS: usize = 4;
 
-/// Numbers in [0, 1) of one seed.
-struct Numbers(u64);
-
-impl Numbers {
-    /// By SplitMix64 (G. Steele, D. Lea, C. Flood, OOPSLA 2014).
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mixed = (self.0 ^ self.0 >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let mixed = (mixed ^ mixed >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((mixed ^ mixed >> 31) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn place(&mut self, low: DVec3, high: DVec3) -> DVec3 {
-        low + DVec3::new(self.next(), self.next(), self.next()) * (high - low)
-    }
+/// A place in a box.
+fn place(numbers: &mut SplitMix64, low: DVec3, high: DVec3) -> DVec3 {
+    low + DVec3::new(numbers.uniform(), numbers.uniform(), numbers.uniform()) * (high - low)
 }
 
 /// A room of 8 m x 6 m x 3 m under spots that look anywhere downward, some weak and some strong.
-fn hall(numbers: &mut Numbers, has_area: bool) -> Scene {
+fn hall(numbers: &mut SplitMix64, has_area: bool) -> Scene {
     let mut scene = room(DVec3::new(8.0, 6.0, 3.0), diffuse(0.5));
     scene.lights = (0..GROUP * GROUPS)
         .map(|_| {
-            let position = numbers.place(DVec3::new(0.3, 0.3, 2.0), DVec3::new(7.7, 5.7, 2.9));
+            let position = place(numbers, DVec3::new(0.3, 0.3, 2.0), DVec3::new(7.7, 5.7, 2.9));
             let Light::Luminaire(mut luminaire) = spotlight(position) else { unreachable!() };
-            let turn = std::f64::consts::TAU * numbers.next();
+            let turn = std::f64::consts::TAU * numbers.uniform();
             luminaire.world_from_luminaire =
-                DMat3::from_rotation_z(turn) * DMat3::from_rotation_x(1.2 * numbers.next());
-            luminaire.dimming = libm::exp(3.0 * numbers.next());
+                DMat3::from_rotation_z(turn) * DMat3::from_rotation_x(1.2 * numbers.uniform());
+            luminaire.dimming = libm::exp(3.0 * numbers.uniform());
             if has_area {
                 luminaire.shape = LuminousShape::new(Solid::Cuboid, DVec3::new(0.3, 0.1, 0.0));
             }
@@ -49,7 +38,7 @@ fn hall(numbers: &mut Numbers, has_area: bool) -> Scene {
     let normals = [DVec3::Z, DVec3::NEG_Z, DVec3::new(0.6, 0.0, 0.8), DVec3::X];
     let places: Vec<(DVec3, DVec3)> = normals
         .into_iter()
-        .map(|normal| (numbers.place(DVec3::splat(0.3), DVec3::new(7.7, 5.7, 1.5)), normal))
+        .map(|normal| (place(numbers, DVec3::splat(0.3), DVec3::new(7.7, 5.7, 1.5)), normal))
         .collect();
     scene.sensors = vec![points("places", &places)];
     scene
@@ -70,7 +59,7 @@ fn intervals(scene: &Scene, seed: u64) -> Vec<Interval> {
 fn many_lights_give_what_they_give_by_the_few() {
     let (mut far, mut compared) = (0, 0);
     for seed in 0..6 {
-        let whole = hall(&mut Numbers(1000 * seed), seed % 2 == 1);
+        let whole = hall(&mut SplitMix64::new(1000 * seed), seed % 2 == 1);
         let together = intervals(&whole, seed);
         let parts: Vec<Vec<Interval>> = whole
             .lights

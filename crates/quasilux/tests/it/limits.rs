@@ -145,10 +145,19 @@ fn an_interrupt_leaves_results_and_exit_code_130() {
     use std::time::Duration;
 
     let folder = room("limits_interrupt");
-    let arguments = [&["run", "room.toml", "--out", "interrupt"][..], &OUT_OF_REACH].concat();
+    let kept = ["--checkpoint", "run.ck", "--checkpoint-every", "0.01s"];
+    let arguments =
+        [&["run", "room.toml", "--out", "interrupt"][..], &kept, &OUT_OF_REACH].concat();
     let child = folder.command(&arguments).spawn().expect("the program starts");
-    // It listens to interrupts before it makes the folder.
-    while !folder.path("interrupt").exists() {
+    // Written once before the first sample, and again when there are some.
+    let kept = || std::fs::read(folder.path("run.ck"));
+    let first = loop {
+        match kept() {
+            Ok(first) => break first,
+            Err(_) => sleep(Duration::from_millis(5)),
+        }
+    };
+    while kept().is_ok_and(|now| now == first) {
         sleep(Duration::from_millis(5));
     }
     interrupt(&child);

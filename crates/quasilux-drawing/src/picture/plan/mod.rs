@@ -20,6 +20,7 @@ mod draw;
 mod edges;
 #[cfg(test)]
 pub(super) mod fixtures;
+mod forest;
 mod holes;
 mod hull;
 pub(super) mod ink;
@@ -39,6 +40,7 @@ mod view;
 mod windows;
 mod words;
 
+pub use forest::first_of_each;
 pub use model::{
     PlanAreaLight, PlanCamera, PlanGrid, PlanLuminaire, PlanMark, PlanPicture, PlanPoint,
     PlanPoints, Surfaces,

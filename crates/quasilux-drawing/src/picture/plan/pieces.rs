@@ -1,6 +1,7 @@
 //! Luminous surfaces in pieces: triangles that share corners belong together, so that one panel of
 //! several is seen to be turned over.
 
+use super::forest::first_of_each;
 use super::model::Surfaces;
 use glam::DVec3;
 use std::collections::BTreeMap;
@@ -22,10 +23,12 @@ pub(crate) fn pieces(surfaces: Surfaces<'_>, triangles: &[u32]) -> Vec<Piece> {
     let corners = triangles.iter().filter_map(|&t| surfaces.triangle(t as usize));
     let corners: Vec<[DVec3; 3]> = corners.collect();
     let mut groups: BTreeMap<usize, Sum> = BTreeMap::new();
-    let roots =
-        if corners.len() > MAX_TRIANGLES { vec![0; corners.len()] } else { roots(&corners) };
-    for (corners, root) in corners.iter().zip(roots) {
-        groups.entry(root).or_default().add(*corners);
+    let firsts = match corners.len() > MAX_TRIANGLES {
+        true => vec![0; corners.len()],
+        false => first_of_each(&corners),
+    };
+    for (corners, first) in corners.iter().zip(firsts) {
+        groups.entry(first).or_default().add(*corners);
     }
     groups.into_values().filter_map(Sum::piece).collect()
 }
@@ -52,29 +55,6 @@ impl Sum {
             mean_normal: self.directed / self.area,
         })
     }
-}
-
-/// For each triangle the first one of its piece: a forest of disjoint sets with path halving.
-fn roots(corners: &[[DVec3; 3]]) -> Vec<usize> {
-    let mut parents: Vec<usize> = (0..corners.len()).collect();
-    let mut at: BTreeMap<[u64; 3], usize> = BTreeMap::new();
-    for (triangle, corners) in corners.iter().enumerate() {
-        for corner in corners {
-            let key = (*corner + DVec3::ZERO).to_array().map(f64::to_bits);
-            let other = *at.entry(key).or_insert(triangle);
-            let [a, b] = [other, triangle].map(|t| root(&mut parents, t));
-            parents[a.max(b)] = a.min(b);
-        }
-    }
-    (0..corners.len()).map(|triangle| root(&mut parents, triangle)).collect()
-}
-
-fn root(parents: &mut [usize], mut triangle: usize) -> usize {
-    while parents[triangle] != triangle {
-        parents[triangle] = parents[parents[triangle]];
-        triangle = parents[triangle];
-    }
-    triangle
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@ use glam::DVec3;
 use quasilux_bvh::SimdLevel;
 use quasilux_scene::Opening;
 use quasilux_sky::{CieType, Distribution, Sky, SkyLevel, SkyPoint};
-use quasilux_stats::damage::SplitMix64;
+use quasilux_stats::SplitMix64;
 use quasilux_stats::sphere_jacobian;
 use std::f64::consts::PI;
 

@@ -1,35 +1,18 @@
 //! Panes of a scene: how many there are of a material.
 
+use glam::DVec3;
+use quasilux_drawing::picture::first_of_each;
 use quasilux_scene::Mesh;
-use std::collections::HashMap;
 
 /// The number of separate panes of a material: triangles that share a corner are of one.
 pub(super) fn panes(mesh: &Mesh, material: u32) -> usize {
     let of_material = mesh.triangles.iter().zip(&mesh.material_of);
-    let triangles = of_material.filter(|(_, own)| **own == material).map(|(corners, _)| corners);
-    let mut parents: Vec<usize> = Vec::new();
-    let mut at: HashMap<[u64; 3], usize> = HashMap::new();
-    for corners in triangles {
-        let this = parents.len();
-        parents.push(this);
-        for &corner in corners {
-            // Adding zero makes one of both zeros.
-            let place = (mesh.positions[corner as usize] + 0.0).to_array().map(f64::to_bits);
-            let other = *at.entry(place).or_insert(this);
-            let [a, b] = [other, this].map(|triangle| root(&mut parents, triangle));
-            parents[a.max(b)] = a.min(b);
-        }
-    }
-    (0..parents.len()).filter(|&triangle| parents[triangle] == triangle).count()
-}
-
-/// The first triangle of a pane, by halving the path to it.
-fn root(parents: &mut [usize], mut triangle: usize) -> usize {
-    while parents[triangle] != triangle {
-        parents[triangle] = parents[parents[triangle]];
-        triangle = parents[triangle];
-    }
-    triangle
+    let triangles: Vec<[DVec3; 3]> = of_material
+        .filter(|(_, own)| **own == material)
+        .map(|(corners, _)| corners.map(|corner| mesh.positions[corner as usize]))
+        .collect();
+    let firsts = first_of_each(&triangles);
+    firsts.into_iter().enumerate().filter(|(number, first)| number == first).count()
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! Random numbers of the damage.
+//! Random numbers of tests.
 
 /// A deterministic generator (SplitMix64, Steele, Lea and Flood 2014) with a key: streams of
 /// different keys start at unrelated places.
@@ -30,6 +30,16 @@ impl SplitMix64 {
     /// Uniform in [0, 1).
     pub fn uniform(&mut self) -> f64 {
         (self.bits() >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    /// Uniform from `low` to `high`.
+    pub fn within(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.uniform()
+    }
+
+    /// One of these, each as probable; they are not empty.
+    pub fn pick<T: Copy>(&mut self, from: &[T]) -> T {
+        from[self.below(from.len())]
     }
 }
 
