@@ -8,15 +8,24 @@ use quasilux_scene::bsdf::{Pane, Translucent};
 use quasilux_scene::{Bsdf, Environment, Opening, Rgb, Scene, Sun};
 use quasilux_sky::SkyPoint;
 use quasilux_transport::{
-    DaylightComponents, EstimatorKind, FoundIlluminance, Interval, Settings, daylight_components,
-    simulate,
+    DaylightComponents, EstimatorKind, FoundIlluminance, Interval, Settings, UnseenTolerance,
+    daylight_components, simulate,
 };
 
 fn settings(seed: u64) -> Settings {
-    let max_samples = Some(1 << 14);
+    let max_samples = Some(1 << 12);
     let (rel_tol, abs_tol_lx) = (0.01, 0.3);
     let estimator = EstimatorKind::Path;
-    Settings { estimator, rel_tol, abs_tol_lx, max_samples, seed, ..Settings::default() }
+    let unseen_tol = UnseenTolerance::Off;
+    Settings {
+        estimator,
+        rel_tol,
+        abs_tol_lx,
+        unseen_tol,
+        max_samples,
+        seed,
+        ..Settings::default()
+    }
 }
 
 fn illuminances(scene: &Scene, seed: u64) -> Vec<Interval> {
