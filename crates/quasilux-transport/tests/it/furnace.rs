@@ -23,7 +23,8 @@ fn illuminance_is_pi_l_over_one_minus_r() {
                     (DVec3::new(1.0, 0.0, 1.0), DVec3::Y),
                 ],
             ));
-            let settings = Settings { estimator, rel_tol: 0.02, ..Settings::default() };
+            let unseen_tol = UnseenTolerance::Off;
+            let settings = Settings { estimator, rel_tol: 0.02, unseen_tol, ..Settings::default() };
             let estimates = simulate(&scene, &settings, &mut ());
             assert!(estimates.tolerance_reached);
             let wanted = PI * 100.0 / (1.0 - reflectance);
