@@ -6,7 +6,7 @@ use super::connect_far_cells;
 use super::flux_and_importance::{FluxAndImportance, landing};
 use super::guiding_tree::GuidingTree;
 use super::survey::{PilotPhoton, Survey};
-use super::weight_windows::{importance_weights, next_squares};
+use super::weight_windows::{Split, importance_weights, next_squares};
 use crate::codec::Writer;
 use crate::context::Context;
 use crate::spectrum::Spectrum;
@@ -55,7 +55,7 @@ impl Copies {
         let by_cell = weights.into_iter().map(|weight| copies(weight).clamp(1.0, MAX_COPIES));
         let by_cell: Vec<f64> = by_cell.collect();
         let single = vec![1.0; by_cell.len()];
-        let [without, with] = [&single, &by_cell].map(|it| predict(&survey, &solution, it));
+        let [without, with] = predict(&survey, &solution, [&single, &by_cell]);
         let is_worthwhile = without.cost_of_error() > WORTHWHILE * with.cost_of_error();
         let regions = is_worthwhile.then(|| survey.regions());
         Self { regions, by_cell, rays: survey.rays }
@@ -81,35 +81,42 @@ impl Copies {
 
 /// Predictions for one emitted photon: its rays, and the variance of the sum over the sensors of
 /// what it gives to each, were nothing but photons seen. As for windows
-/// ([`super::weight_windows`]), but photons have the weights that their lights gave them.
-fn predict(survey: &Survey, solution: &FluxAndImportance, copies: &[f64]) -> Performance {
+/// ([`super::weight_windows`]), but photons have the weights that their lights gave them. For each
+/// choice of the copies.
+fn predict<const N: usize>(
+    survey: &Survey,
+    solution: &FluxAndImportance,
+    choices: [&[f64]; N],
+) -> [Performance; N] {
     let known = &survey.known;
     let even = GuidingTree::even();
     let next_square = next_squares(survey, solution, known.iter().map(|_| &even));
     let photons = landing(survey, |first| first.photons);
     let squares = landing(survey, |first| first.squares);
-    let mut performance = Performance { rays: 1.0, variance: 0.0 };
-    for (cell, from) in known.iter().enumerate() {
-        let leaving = from.albedo * copies[cell];
-        let d = solution.leaving_importance[cell];
-        performance.rays += photons[cell] * leaving;
-        let of_next = (next_square[cell] - d * d).max(0.0);
-        performance.variance += squares[cell] * from.albedo / copies[cell] * of_next;
-    }
-    let mut decide = |cell: usize, square: f64, before: f64| {
-        let d = solution.leaving_importance[cell] / copies[cell];
-        let number = known[cell].albedo * copies[cell] / before;
-        let rest = number - number.floor();
-        performance.variance += square * before * rest * (1.0 - rest) * d * d;
-    };
-    for (cell, first) in survey.first_landings.iter().enumerate() {
-        decide(cell, first.squares, 1.0);
-    }
-    for (cell, from) in known.iter().enumerate() {
-        for step in from.steps() {
-            let square = squares[cell] * from.albedo * step.share * step.weight;
-            decide(step.cell as usize, square, copies[cell]);
+    choices.map(|copies| {
+        let mut performance = Performance { rays: 1.0, variance: 0.0 };
+        for (cell, from) in known.iter().enumerate() {
+            let leaving = from.albedo * copies[cell];
+            let d = solution.leaving_importance[cell];
+            performance.rays += photons[cell] * leaving;
+            let of_next = (next_square[cell] - d * d).max(0.0);
+            performance.variance += squares[cell] * from.albedo / copies[cell] * of_next;
         }
-    }
-    performance
+        let mut decide = |cell: usize, square: f64, before: f64| {
+            let expected = known[cell].albedo * copies[cell] / before;
+            let split = Split { expected, weight: 1.0 / copies[cell] };
+            let d = solution.leaving_importance[cell] * split.weight;
+            performance.variance += square * before * split.variance() * d * d;
+        };
+        for (cell, first) in survey.first_landings.iter().enumerate() {
+            decide(cell, first.squares, 1.0);
+        }
+        for (cell, from) in known.iter().enumerate() {
+            for step in from.steps() {
+                let square = squares[cell] * from.albedo * step.share * step.weight;
+                decide(step.cell as usize, square, copies[cell]);
+            }
+        }
+        performance
+    })
 }

@@ -133,7 +133,7 @@ impl Split {
     }
 
     /// Of their number, which is one of the two integers next to the mean.
-    fn variance(self) -> f64 {
+    pub(super) fn variance(self) -> f64 {
         let rest = self.expected - self.expected.floor();
         rest * (1.0 - rest)
     }
