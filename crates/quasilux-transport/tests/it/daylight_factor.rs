@@ -7,13 +7,14 @@ use glam::DVec3;
 use quasilux_scene::bsdf::{Pane, Translucent};
 use quasilux_scene::{Bsdf, Environment, Opening, Rgb, Scene, Sun};
 use quasilux_sky::SkyPoint;
+use quasilux_stats::deep;
 use quasilux_transport::{
     DaylightComponents, EstimatorKind, FoundIlluminance, Interval, Settings, UnseenTolerance,
     daylight_components, simulate,
 };
 
 fn settings(seed: u64) -> Settings {
-    let max_samples = Some(1 << 12);
+    let max_samples = Some(1 << 11);
     let (rel_tol, abs_tol_lx) = (0.01, 0.3);
     let estimator = EstimatorKind::Path;
     let unseen_tol = UnseenTolerance::Off;
@@ -34,7 +35,7 @@ fn illuminances(scene: &Scene, seed: u64) -> Vec<Interval> {
 }
 
 fn components(scene: &Scene, seed: u64) -> Option<Vec<DaylightComponents>> {
-    let found = |it: &Interval| FoundIlluminance { lx: it.value, samples: 1 << 12 };
+    let found = |it: &Interval| FoundIlluminance { lx: it.value, samples: 1 << 11 };
     let found: Vec<FoundIlluminance> = illuminances(scene, seed).iter().map(found).collect();
     daylight_components(scene, &settings(seed), &found, &|| true)
 }
@@ -88,12 +89,14 @@ fn sky_and_ground_through_windows_are_integrals() {
 }
 
 /// In black rooms with a facade opposite, by openings of all kinds: both components together are
-/// all light, and the first is what is left when all else is black.
+/// all light, and the first is what is left when all else is black. Six rooms, twelve in the deep
+/// variant, each value known to 3 %.
 #[test]
 fn facades_are_externally_reflected() {
     let mut numbers = Numbers::from_seed(23);
+    let rooms = if deep() { 12 } else { 6 };
     let mut compared = 0;
-    for number in 0..12 {
+    for number in 0..rooms {
         let Room { mut scene, window } = room_with_window(&mut numbers, 0.0);
         let mut environment = outside(&mut numbers);
         fill(&mut scene, &mut environment, window, number % 3);
@@ -122,7 +125,7 @@ fn facades_are_externally_reflected() {
             assert_near(both, known_all, scale_lx, &format!("{number}, all"));
         }
     }
-    assert!(compared >= 24, "{compared}");
+    assert!(compared >= 2 * rooms, "{compared}");
 }
 
 /// Without openings there is no inside, and under lamps or in the sun no daylight factor.
@@ -132,15 +135,18 @@ fn other_light_has_no_components() {
     let Room { mut scene, window } = room_with_window(&mut numbers, 0.5);
     let mut environment = outside(&mut numbers);
     scene.environment = Some(environment.clone());
-    assert_eq!(components(&scene, 1), None);
+    let settings = Settings { max_samples: Some(64), ..settings(1) };
+    let found = vec![FoundIlluminance { lx: 100.0, samples: 64 }; scene.sensors[0].points().len()];
+    let components = |scene: &Scene| daylight_components(scene, &settings, &found, &|| true);
+    assert_eq!(components(&scene), None);
     environment.openings.push(window);
     scene.environment = Some(environment.clone());
-    assert!(components(&scene, 1).is_some());
+    assert!(components(&scene).is_some());
     let with_lamp = Scene { lights: vec![point_light(DVec3::ONE, 100.0)], ..scene.clone() };
-    assert_eq!(daylight_components(&with_lamp, &settings(1), &[], &|| true), None);
+    assert_eq!(components(&with_lamp), None);
     let centre = SkyPoint { altitude_deg: 40.0, azimuth_deg: 180.0 };
     let sun = Sun { normal_illuminance_lx: 1000.0, centre };
     let environment = Environment { sun: Some(sun), ..environment };
     let sunny = Scene { environment: Some(environment), ..scene };
-    assert_eq!(daylight_components(&sunny, &settings(1), &[], &|| true), None);
+    assert_eq!(components(&sunny), None);
 }

@@ -6,6 +6,7 @@ use crate::outside::{Numbers, Room, outside, room_with_window};
 use crate::scenes::diffuse;
 use glam::DVec3;
 use quasilux_scene::{Environment, Opening, Scene};
+use quasilux_stats::deep;
 use quasilux_transport::{EstimatorKind, Interval, Settings, simulate};
 use std::f64::consts::TAU;
 
@@ -115,8 +116,11 @@ impl Count {
     }
 }
 
+/// Runs of 2^10 samples at most, 2^14 in the deep variant: the fewer, the rarer are the paths that
+/// meet the facade. Of 160 intervals of 95 % either finds a coverage below 90 %.
 #[test]
 fn no_interval_is_without_what_a_facade_reflects() {
+    let max_samples = Some(if deep() { 1 << 14 } else { 1 << 10 });
     let estimators = [EstimatorKind::Path, EstimatorKind::Auto];
     let mut counts = [(); 2].map(|()| Count::default());
     for seed in 100..140 {
@@ -128,12 +132,10 @@ fn no_interval_is_without_what_a_facade_reflects() {
             .map(|place| view.expected([place.position, place.normal], &mut numbers))
             .collect();
         for (estimator, count) in estimators.iter().zip(&mut counts) {
-            let (estimator, max_samples) = (*estimator, Some(1 << 14));
-            let (rel_tol, abs_tol_lx) = (0.01, 0.3);
             let settings = Settings {
-                estimator,
-                rel_tol,
-                abs_tol_lx,
+                estimator: *estimator,
+                rel_tol: 0.01,
+                abs_tol_lx: 0.3,
                 max_samples,
                 seed,
                 ..Settings::default()

@@ -4,6 +4,7 @@ use crate::scenes::{all_walls_emit, diffuse, level_grid, mirror, point_light, po
 use glam::DVec3;
 use quasilux_scene::bsdf::{Conductor, Dielectric, Pane, Plastic, Translucent};
 use quasilux_scene::{Bsdf, Grid, Material, Quantity, Rgb, Scene, Sensor, SensorShape};
+use quasilux_stats::deep;
 use quasilux_transport::{EstimatorKind, Settings, UnseenTolerance, simulate};
 use std::f64::consts::PI;
 
@@ -35,9 +36,12 @@ pub(crate) fn add_box(scene: &mut Scene, low: DVec3, high: DVec3, bsdf: Bsdf) {
 }
 
 /// What stands in a furnace absorbs nothing, whatever it is: all illuminances stay those of the
-/// empty furnace, pi L / (1 - r), in front of it, beside it and behind it, to 0.1 %.
+/// empty furnace, pi L / (1 - r), in front of it, beside it and behind it, to 0.3 %, in the deep
+/// variant to 0.1 %.
 #[test]
 fn white_bodies_vanish_in_a_furnace() {
+    let allowed = if deep() { 1e-3 } else { 3e-3 };
+    let rel_tol = 0.7 * allowed;
     let bodies = [
         mirror(1.0),
         Bsdf::Dielectric(Dielectric { eta: 1.5 }),
@@ -60,13 +64,13 @@ fn white_bodies_vanish_in_a_furnace() {
         scene.sensors.push(points("probes", &places));
         // Where all is kept nothing bounds what no sample met.
         let unseen_tol = UnseenTolerance::Off;
-        let settings = Settings { rel_tol: 0.0007, unseen_tol, ..Settings::default() };
+        let settings = Settings { rel_tol, unseen_tol, ..Settings::default() };
         let estimates = simulate(&scene, &settings, &mut ());
         for interval in estimates.point_intervals(0) {
             let wanted = PI * 100.0 / 0.5;
             let found = format!("{body:?}: {interval:?}, wanted {wanted}");
-            assert!(interval.half_width.unwrap() <= 0.0007 * interval.value, "{found}");
-            assert!((interval.value - wanted).abs() <= 1e-3 * wanted, "{found}");
+            assert!(interval.half_width.unwrap() <= rel_tol * interval.value, "{found}");
+            assert!((interval.value - wanted).abs() <= allowed * wanted, "{found}");
         }
     }
 }

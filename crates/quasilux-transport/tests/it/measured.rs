@@ -140,9 +140,11 @@ pub(crate) fn assert_alike(what: &str, pairs: &[(Mean, Mean)], widest: f64) {
     println!("{what}: errors above {detected:.4} are found, {widest} asserted");
 }
 
-/// Constant values are Lambert's without any error of the table.
+/// Constant values are Lambert's without any error of the table: errors above 6 % are found, in the
+/// deep variant above 3 %.
 #[test]
 fn a_table_of_lambert_is_a_translucent_sheet() {
+    let (paths, widest) = if deep() { (1 << 12, 0.03) } else { (1 << 10, 0.06) };
     let [reflectance, transmittance] = [0.3, 0.4].map(Rgb::grey);
     let known = divided(Bsdf::Translucent(Translucent { reflectance, transmittance }));
     let even = |share: f64| table(move |_, _| share * FRAC_1_PI);
@@ -153,15 +155,15 @@ fn a_table_of_lambert_is_a_translucent_sheet() {
         ]
     });
     let scene = divided(measured(tables));
-    let expected = estimates(&known, EstimatorKind::Path, 1 << 12);
+    let expected = estimates(&known, EstimatorKind::Path, paths);
     for (estimator, samples) in [
-        (EstimatorKind::Path, 1 << 12),
-        (EstimatorKind::Photon, 1 << 15),
-        (EstimatorKind::Bidirectional, 1 << 12),
+        (EstimatorKind::Path, paths),
+        (EstimatorKind::Photon, 8 * paths),
+        (EstimatorKind::Bidirectional, paths),
     ] {
         let found = estimates(&scene, estimator, samples);
         let pairs: Vec<(Mean, Mean)> = expected.iter().copied().zip(found).collect();
-        assert_alike(estimator.name(), &pairs, 0.03);
+        assert_alike(estimator.name(), &pairs, widest);
     }
 }
 

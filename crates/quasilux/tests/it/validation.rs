@@ -1,7 +1,9 @@
 //! `quasilux validate`: the project's own cases hold, and a wrong one does not.
 
 use crate::support::{Folder, Run};
-use std::process::Command;
+use quasilux_stats::deep;
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
 
 /// 100 cd, 2 m above the point: 25 lx.
 const PROJECT: &str = r#"[scene]
@@ -21,14 +23,32 @@ normals = [[0, 0, 1]]
 const FLOOR_OBJ: &str =
     "o floor\nusemtl black\nv -2 -2 0\nv 2 -2 0\nv 2 2 0\nv -2 2 0\nf 1 2 3 4\n";
 
+/// All of them in the deep variant. Else of each room that has a case for each of the 16 CIE skies
+/// four, so that each sky is that of three rooms: a room that is wrong, or a sky, is found.
 #[test]
-fn all_cases_of_the_project_hold() {
-    let output = Command::new(env!("CARGO_BIN_EXE_quasilux"))
-        .args(["validate", "../../validation"])
-        .current_dir(env!("CARGO_MANIFEST_DIR"))
-        .output()
-        .expect("the program starts");
-    let run = Run::new(output);
+fn cases_of_the_project_hold() {
+    let folder = folder("validate_project");
+    let project = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../validation").canonicalize();
+    let project = project.expect("the folder of the cases");
+    let entries = std::fs::read_dir(project.join("cases")).expect("cases");
+    let mut paths: Vec<PathBuf> = entries.map(|entry| entry.expect("an entry").path()).collect();
+    paths.sort();
+    let mut rooms = BTreeSet::new();
+    for path in &paths {
+        let name = path.file_stem().and_then(|name| name.to_str()).expect("a name in ASCII");
+        if let Some((room, sky)) = name.split_once("_sky_") {
+            rooms.insert(room);
+            let sky: usize = sky.parse().expect("the number of a sky");
+            if !deep() && (rooms.len() + sky) % 4 != 0 {
+                continue;
+            }
+        }
+        let text = std::fs::read_to_string(path).expect("a case");
+        let text = text.replace("project = \"..", &format!("project = \"{}", project.display()));
+        folder.write(&format!("validation/cases/{name}.toml"), text);
+    }
+    assert!(rooms.len() > 12, "{rooms:?}");
+    let run = folder.quasilux(&["validate"]);
     assert_eq!(run.code, Some(0), "{}{}", run.stdout, run.stderr);
     let last = run.stdout.lines().last().unwrap_or_default();
     assert!(last.ends_with(" passed, 0 failed") && !last.starts_with("0 "), "{last}");
