@@ -5,8 +5,7 @@
 //! stored with; none is turned into another. Clear glass is [`read_glazing`]'s, and has no lobes.
 //!
 //! ```
-//! use glam::DVec3;
-//! use quasilux_bsdf::{Side, ScatteringMode, read_bsdf};
+//! use quasilux_bsdf::{DVec3, Side, ScatteringMode, read_bsdf};
 //! let file = b"VARS theta_i,phi_i,theta_s,phi_s,BRDF\n0,0,0,0,0.2\n";
 //! let read = read_bsdf(file)?;
 //! let reflection = read.bsdf.scattering(Side::Front, ScatteringMode::Reflection).unwrap();
@@ -64,6 +63,7 @@ pub use color::luminance;
 pub use ddr::read_ddr;
 pub use distribution::Distribution;
 pub use facts::{BsdfFacts, BsdfFormat};
+pub use glam::DVec3;
 pub use glazing::{
     Glazing, GlazingLayer, GlazingProduct, ParsedGlazing, SheetShares, read_glazing,
 };

@@ -4,8 +4,7 @@
 //!
 //! C and gamma are in degrees. For comparisons with other programs: see `validation/ies2rad`.
 
-use glam::DVec3;
-use quasilux_photometry::{read_ies, read_ldt};
+use quasilux_photometry::{DVec3, read_ies, read_ldt};
 use std::error::Error;
 
 fn main() -> Result<(), Box<dyn Error>> {

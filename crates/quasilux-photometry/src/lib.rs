@@ -11,7 +11,7 @@
 //! where the angles of each photometric type lie in it.
 //!
 //! ```
-//! use glam::DVec3;
+//! use quasilux_photometry::DVec3;
 //! let file = b"IESNA:LM-63-2002\n[TEST] example\nTILT=NONE\n\
 //!     1 -1 1 2 1 1 2 0 0 0\n1 1 10\n0 180\n0\n100 100\n";
 //! let read = quasilux_photometry::read_ies(file)?;
@@ -50,6 +50,7 @@ mod write;
 pub use analysis::Analysis;
 pub use facts::{EulumdatFacts, Keyword, LuminaireFacts, LuminousOpening, PhotometricType, Tilt};
 pub use file_format::Format;
+pub use glam::DVec3;
 pub use ies::{ReadTilt, read_ies, read_tilt, write_ies};
 pub use ldt::{read_ldt, write_ldt};
 pub use memory::max_read_memory_bytes;

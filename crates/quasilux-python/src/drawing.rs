@@ -8,7 +8,8 @@ use quasilux_drawing::picture::{Cell, FalseColourScale, false_colours};
 /// Adds the functions to the module.
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(false_colour_map, module)?)?;
-    module.add_function(wrap_pyfunction!(false_colour_scale, module)?)
+    module.add_function(wrap_pyfunction!(false_colour_scale, module)?)?;
+    module.add_function(wrap_pyfunction!(luminance_scale, module)?)
 }
 
 /// Red, green and blue of so many colours from the lowest value to the highest, in [0, 1].
@@ -29,6 +30,18 @@ struct ScaleEntry {
     labels: Vec<String>,
 }
 
+impl From<FalseColourScale> for ScaleEntry {
+    fn from(scale: FalseColourScale) -> Self {
+        Self {
+            low: scale.low,
+            high: scale.high,
+            is_logarithmic: scale.is_logarithmic,
+            levels: scale.levels.iter().map(|level| level.value).collect(),
+            labels: scale.levels.into_iter().map(|level| level.label).collect(),
+        }
+    }
+}
+
 /// The scale of values with half-widths, not a number where there are none.
 #[pyfunction]
 fn false_colour_scale(
@@ -41,12 +54,12 @@ fn false_colour_scale(
     let cells: Vec<Cell> = cells
         .map(|(value, half_width)| Cell { value: known(value), half_width: known(half_width) })
         .collect();
-    let scale = FalseColourScale::from_cells(&cells);
-    ScaleEntry {
-        low: scale.low,
-        high: scale.high,
-        is_logarithmic: scale.is_logarithmic,
-        levels: scale.levels.iter().map(|level| level.value).collect(),
-        labels: scale.levels.into_iter().map(|level| level.label).collect(),
-    }
+    FalseColourScale::from_cells(&cells).into()
+}
+
+/// The scale of a camera's luminances in cd/m2.
+#[pyfunction]
+fn luminance_scale(luminances_cd_m2: PyReadonlyArrayDyn<'_, f32>) -> ScaleEntry {
+    let luminances: Vec<f32> = luminances_cd_m2.as_array().iter().copied().collect();
+    FalseColourScale::from_luminances(&luminances).into()
 }

@@ -256,7 +256,12 @@ def test_plots_have_the_colours_of_the_pictures(result: quasilux.Result) -> None
     result["board"].plot(both[1], contours=False, **options)
     assert len(both[1].texts) == 6 and len(both[1].collections) == 1
     result["board"].plot(value="half_width_lx")
-    assert result.cameras["view"].plot().images
+    view = result.cameras["view"]
+    norm = view.plot().images[0].norm
+    # A number 1, 2 or 5 times a power of ten, just above the brightest pixel.
+    brightest = float(view.luminance_cd_m2.max())
+    assert brightest <= norm.vmax < 2.51 * brightest
+    assert f"{norm.vmax:.0e}"[0] in "125" and math.isclose(norm.vmax, float(f"{norm.vmax:.0e}"))
     figure.canvas.draw()
     with pytest.raises(ValueError, match="value is 'lx'"):
         result["board"].plot(value="lx")

@@ -34,6 +34,7 @@ pub use camera::{Camera, View};
 pub use environment::{Environment, Opening, SkyFacts, SkyModel, Sun};
 pub use error::{LoadError, Spanned, Warning};
 pub use files::{FileKind, Files, TriangleArrays, too_large};
+pub use glam::DVec3;
 pub use light::Light;
 pub use load::{Loaded, Places, load};
 pub use mesh::Mesh;

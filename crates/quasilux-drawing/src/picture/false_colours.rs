@@ -1,7 +1,8 @@
-//! The false colours of grids, for whoever draws them in a way of their own.
+//! The false colours of grids and cameras, for whoever draws them in a way of their own.
 
 use super::cells::Cell;
 use super::colour_map;
+use super::luminance_scale::LuminanceScale;
 use super::scale::ValueScale;
 use crate::style::Colour;
 
@@ -44,6 +45,14 @@ impl FalseColourScale {
                 .collect(),
         }
     }
+
+    /// That of the pictures of a camera with these luminances, in cd/m2: logarithmic, without
+    /// contour lines. What is below its low end has the first colour.
+    #[must_use]
+    pub fn from_luminances(luminances_cd_m2: &[f32]) -> Self {
+        let [low, high] = LuminanceScale::new(luminances_cd_m2).ends_cd_m2();
+        Self { low, high, is_logarithmic: true, levels: Vec::new() }
+    }
 }
 
 /// So many colours at equal distances along the scale, both ends among them.
@@ -69,6 +78,16 @@ mod tests {
         let wide = Grid::new([4.0, 4.0], [10, 10], 0.0, |x, _| libm::exp10(4.0 * x));
         let scale = FalseColourScale::from_cells(&wide.cells);
         assert!(scale.is_logarithmic && scale.low > 0.0 && scale.high <= 1e4, "{scale:?}");
+    }
+
+    /// Round numbers around the luminances, but for the darkest.
+    #[test]
+    fn the_scale_of_luminances_is_that_of_the_picture() {
+        let mut luminances = vec![3.4; 200];
+        luminances[..3].copy_from_slice(&[0.0, 0.01, 410.0]);
+        let scale = FalseColourScale::from_luminances(&luminances);
+        assert!(scale.is_logarithmic && scale.levels.is_empty(), "{scale:?}");
+        assert!((scale.low - 2.0).abs() < 1e-12 && (scale.high - 500.0).abs() < 1e-9, "{scale:?}");
     }
 
     #[test]

@@ -26,7 +26,7 @@ pub(crate) struct LuminanceScale {
 impl LuminanceScale {
     /// The scale for a picture.
     pub(crate) fn new(luminances_cd_m2: &[f32]) -> Self {
-        let lit = |luminance: &f32| *luminance > 0.0;
+        let lit = |luminance: &f32| *luminance > 0.0 && luminance.is_finite();
         let mut lit: Vec<f32> = luminances_cd_m2.iter().copied().filter(lit).collect();
         lit.sort_unstable_by(f32::total_cmp);
         let dark = lit.get((TOO_DARK * lit.len() as f64) as usize).copied();
@@ -44,6 +44,11 @@ impl LuminanceScale {
         } else {
             0.0
         }
+    }
+
+    /// The luminances at its low and its high end, in cd/m2.
+    pub(crate) fn ends_cd_m2(&self) -> [f64; 2] {
+        [self.low, self.high].map(libm::exp10)
     }
 
     /// The colour of a luminance.
@@ -79,7 +84,9 @@ mod tests {
 
     #[test]
     fn any_picture_has_a_scale() {
-        for luminances in [&[][..], &[0.0], &[7.0], &[1e-30, 1.0], &[1e-30, 1e30], &[0.0, 1e-38]] {
+        for luminances in
+            [&[][..], &[0.0], &[7.0], &[1e-30, 1.0], &[1e-30, 1e30], &[0.0, 1e-38], &[f32::NAN]]
+        {
             let scale = LuminanceScale::new(luminances);
             assert!((2..=15).contains(&scale.decades.values.len()), "{luminances:?}");
             assert!(luminances.iter().all(|&l| scale.share(f64::from(l)) < 1.0 + HAIR));

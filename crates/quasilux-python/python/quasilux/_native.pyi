@@ -36,6 +36,7 @@ __all__ = [
     "false_colour_scale",
     "figure_text",
     "identify_run",
+    "luminance_scale",
     "photometry_ending",
     "photometry_from_intensities",
     "read_bsdf",
@@ -220,6 +221,7 @@ def false_colour_map(count: int) -> NDArray[np.float64]: ...
 def false_colour_scale(
     values: NDArray[np.float64], half_widths: NDArray[np.float64]
 ) -> ScaleEntry: ...
+def luminance_scale(luminances_cd_m2: NDArray[np.float32]) -> ScaleEntry: ...
 
 # points
 

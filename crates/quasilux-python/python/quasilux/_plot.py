@@ -59,11 +59,9 @@ def camera(found: CameraResult, ax: Axes | None, *, colorbar: bool) -> Axes:
 
     axes = _new_axes() if ax is None else ax
     values = found.luminance_cd_m2
-    shown = values[np.isfinite(values) & (values > 0.0)]
-    high = float(shown.max()) if shown.size else 1.0
-    low = max(float(np.quantile(shown, 0.001)), high * 1e-4) if shown.size else 0.1
-    norm = LogNorm(min(low, 0.999 * high), high, clip=True)
-    image = axes.imshow(np.where(values > 0.0, values, low), cmap=_colours(), norm=norm)
+    scale = _native.luminance_scale(values)
+    norm = LogNorm(scale["low"], scale["high"], clip=True)
+    image = axes.imshow(np.where(values > 0.0, values, scale["low"]), cmap=_colours(), norm=norm)
     axes.set(title=found.name, xticks=[], yticks=[])
     if colorbar:
         axes.figure.colorbar(image, ax=axes, label="luminance (cd/m²)")
