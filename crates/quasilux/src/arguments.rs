@@ -269,12 +269,16 @@ mod tests {
             let path = format!("{root}/{name}");
             std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"))
         };
-        let documents = ["README.md", "docs/speed.md", "CONTRIBUTING.md"];
+        let pages = std::fs::read_dir(format!("{root}/docs")).expect("a folder of pages");
+        let pages =
+            pages.map(|page| page.expect("a page").file_name().into_string().expect("UTF-8"));
+        let pages = pages.filter(|name| name.ends_with(".md")).map(|name| format!("docs/{name}"));
+        let documents = ["README.md", "CONTRIBUTING.md"].map(str::to_owned);
         let examples = ["cluster", "cornell", "corridor", "cube", "diffuser", "office"];
         let examples = examples.map(|name| format!("examples/{name}/README.md"));
         let own = "crates/quasilux/README.md".to_owned();
         let mut parsed = 0;
-        for name in documents.map(str::to_owned).into_iter().chain(examples).chain([own]) {
+        for name in documents.into_iter().chain(pages).chain(examples).chain([own]) {
             let text = read(&name);
             let lines = text.lines().filter_map(|line| line.strip_prefix("    "));
             let calls = ["cargo run --release -- ", "quasilux "];

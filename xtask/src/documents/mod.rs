@@ -12,6 +12,7 @@ mod pictures;
 
 use blocks::{Block, blocks};
 use commands::Line;
+use pictures::PICTURES;
 use std::fs;
 use std::path::{Path, PathBuf};
 use xtask::workspace::Failure;
@@ -49,13 +50,13 @@ pub(crate) fn check(root: &Path) -> Result<(), Failure> {
 /// Writes the pictures anew.
 pub(crate) fn draw(root: &Path) -> Result<(), Failure> {
     let program = commands::build(root)?;
-    let document = Document::open(root, pictures::DOCUMENT)?;
-    document.write_projects()?;
-    for arguments in pictures::commands() {
-        commands::output(&program, &document.scratch, &arguments)?;
+    for picture in &PICTURES {
+        let document = Document::open(root, picture.document)?;
+        document.write_projects()?;
+        commands::output(&program, &document.scratch, &picture.arguments())?;
+        picture.copy(root, &document.scratch)?;
+        let _ = fs::remove_dir_all(&document.scratch);
     }
-    pictures::copy(root, &document.scratch)?;
-    let _ = fs::remove_dir_all(&document.scratch);
     Ok(())
 }
 
@@ -133,9 +134,7 @@ impl Document {
         match Line::new(line, &self.name) {
             Line::Run(arguments) => {
                 let printed = commands::output(program, &folder, &arguments)?;
-                if self.name == pictures::DOCUMENT {
-                    pictures::compare(root, &folder, &arguments)?;
-                }
+                pictures::compare(root, &self.name, &folder, &arguments)?;
                 Ok(Some(printed))
             }
             Line::LeftOut => Ok(None),

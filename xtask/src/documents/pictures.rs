@@ -3,58 +3,76 @@
 use std::path::Path;
 use xtask::workspace::Failure;
 
-/// The document that shows the commands.
-pub(super) const DOCUMENT: &str = "README.md";
-
 /// A picture of the documentation.
-struct Picture {
+pub(super) struct Picture {
+    /// The document that shows the command.
+    pub(super) document: &'static str,
     /// Where it is, below the root.
     shown: &'static str,
     /// Arguments of the command that makes it.
-    command: &'static str,
+    pub(super) command: &'static str,
     /// The file that the command writes.
     made: &'static str,
 }
 
-const PICTURES: [Picture; 3] = [
+pub(super) const PICTURES: [Picture; 4] = [
     Picture {
+        document: "README.md",
         shown: "docs/office-workplane.png",
         command: "run examples/office/office.toml",
         made: "out/office/workplane.png",
     },
-    Picture { shown: "docs/office-view.png", command: "run room.toml", made: "out/room/door.png" },
     Picture {
+        document: "README.md",
+        shown: "docs/office-plan.png",
+        command: "check examples/office/office.toml",
+        made: "out/office/plan.png",
+    },
+    Picture {
+        document: "docs/project-file.md",
+        shown: "docs/office-view.png",
+        command: "run room.toml",
+        made: "out/room/door.png",
+    },
+    Picture {
+        document: "docs/luminaires.md",
         shown: "docs/batwing.svg",
         command: "photometry examples/office/batwing.ies --svg batwing.svg",
         made: "batwing.svg",
     },
 ];
 
-/// The commands that make them.
-pub(super) fn commands() -> impl Iterator<Item = Vec<String>> {
-    PICTURES.iter().map(|picture| picture.command.split(' ').map(str::to_owned).collect())
+impl Picture {
+    /// The arguments of the program that make it.
+    pub(super) fn arguments(&self) -> Vec<String> {
+        self.command.split(' ').map(str::to_owned).collect()
+    }
+
+    /// Puts what the command made in a folder into its place.
+    pub(super) fn copy(&self, root: &Path, folder: &Path) -> Result<(), Failure> {
+        let (from, to) = (folder.join(self.made), root.join(self.shown));
+        std::fs::copy(&from, &to).map_err(|error| format!("{}: {error}", from.display()))?;
+        println!("xtask: wrote {}", to.display());
+        Ok(())
+    }
 }
 
-/// Compares the picture of a command with what that made in a folder: all bytes, for they are the
-/// same on every machine.
-pub(super) fn compare(root: &Path, folder: &Path, arguments: &[String]) -> Result<(), Failure> {
-    for Picture { shown, command, made } in PICTURES {
-        let is_own = command.split(' ').eq(arguments.iter().map(String::as_str));
-        if is_own && read(&root.join(shown))? != read(&folder.join(made))? {
+/// Compares the pictures that a document shows of a command with what that made in a folder: all
+/// bytes, for they are the same on every machine.
+pub(super) fn compare(
+    root: &Path,
+    document: &str,
+    folder: &Path,
+    arguments: &[String],
+) -> Result<(), Failure> {
+    for picture in PICTURES.iter().filter(|picture| picture.document == document) {
+        let Picture { shown, command, made, .. } = picture;
+        if picture.arguments() == arguments && read(&root.join(shown))? != read(&folder.join(made))?
+        {
             return Err(format!(
                 "{shown} is not what `{command}` makes: `cargo xtask pictures` writes it anew"
             ));
         }
-    }
-    Ok(())
-}
-
-/// Puts the pictures that the commands made in a folder into their places.
-pub(super) fn copy(root: &Path, folder: &Path) -> Result<(), Failure> {
-    for Picture { shown, made, .. } in PICTURES {
-        let (from, to) = (folder.join(made), root.join(shown));
-        std::fs::copy(&from, &to).map_err(|error| format!("{}: {error}", from.display()))?;
-        println!("xtask: wrote {}", to.display());
     }
     Ok(())
 }
@@ -69,13 +87,15 @@ mod tests {
     use xtask::workspace::root as workspace_root;
 
     #[test]
-    fn the_document_shows_each_picture_and_its_command() {
+    fn documents_show_each_picture_and_its_command() {
         let root = workspace_root();
-        let text = std::fs::read_to_string(root.join(DOCUMENT)).unwrap();
-        for Picture { shown, command, .. } in PICTURES {
-            assert!(text.contains(&format!("]({shown})")), "{shown} is not shown");
+        for Picture { document, shown, command, .. } in PICTURES {
+            let text = std::fs::read_to_string(root.join(document)).unwrap();
+            let beside = shown.strip_prefix("docs/").filter(|_| document.starts_with("docs/"));
+            let link = beside.unwrap_or(shown);
+            assert!(text.contains(&format!("]({link})")), "{document}: {shown} is not shown");
             let line = format!("    cargo run --release -- {command}\n");
-            assert!(text.contains(&line), "`{command}` is not shown");
+            assert!(text.contains(&line), "{document}: `{command}` is not shown");
             assert!(root.join(shown).is_file(), "{shown} is not there");
         }
     }
@@ -88,13 +108,17 @@ mod tests {
             std::fs::create_dir_all(file.parent().unwrap()).unwrap();
             std::fs::copy(workspace_root().join(shown), &file).unwrap();
         }
-        let failures = || commands().map(|it| compare(&workspace_root(), &folder, &it).err());
-        assert!(failures().all(|failure| failure.is_none()));
-        std::fs::write(folder.join(PICTURES[2].made), "another").unwrap();
-        let failures: Vec<String> = failures().flatten().collect();
+        let failures = |document: &str| -> Vec<String> {
+            let compare =
+                |it: &Picture| compare(&workspace_root(), document, &folder, &it.arguments()).err();
+            PICTURES.iter().filter_map(compare).collect()
+        };
+        let (own, other) = ("docs/luminaires.md", "README.md");
+        assert!(failures(own).is_empty() && failures(other).is_empty());
+        std::fs::write(folder.join(PICTURES[3].made), "another").unwrap();
+        let (own, other) = (failures(own), failures(other));
         std::fs::remove_dir_all(&folder).unwrap();
-        assert_eq!(failures.len(), 1);
-        let failure = &failures[0];
-        assert!(failure.contains("docs/batwing.svg") && failure.contains("xtask pictures"));
+        assert!(own.len() == 1 && other.is_empty(), "{own:?}, {other:?}");
+        assert!(own[0].contains("docs/batwing.svg") && own[0].contains("xtask pictures"));
     }
 }

@@ -1,10 +1,12 @@
 //! The rules of the house that no compiler checks.
 //!
-//! [`arrows`] reads the manifests, [`absences`] the sources. Each rule is a function from text to
+//! [`arrows`] reads the manifests, [`absences`] the sources, [`signposts`] what pages and comments
+//! point to. Each rule is a function from text to
 //! violations, with a test of its own that proves it rejects a made-up one.
 
 mod absences;
 mod arrows;
+mod signposts;
 mod source;
 
 use source::RustFile;
@@ -64,6 +66,28 @@ fn rust_files() -> Vec<RustFile> {
     files.sort_by(|a, b| a.path.cmp(&b.path));
     assert!(files.len() >= 20, "only {} Rust files found", files.len());
     files
+}
+
+/// All pages of the repository, with paths relative to it.
+fn pages() -> Vec<(String, String)> {
+    let root = workspace();
+    let mut pages = Vec::new();
+    let mut folders = vec![root.clone()];
+    while let Some(folder) = folders.pop() {
+        for path in fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path()) {
+            let name = path.file_name().unwrap().to_str().unwrap().to_owned();
+            if path.is_dir() {
+                folders.extend((name != "target" && !name.starts_with('.')).then_some(path));
+            } else if name.ends_with(".md") {
+                let parts: Vec<_> = path.strip_prefix(&root).unwrap().iter().collect();
+                let parts: Vec<_> = parts.iter().map(|part| part.to_str().unwrap()).collect();
+                pages.push((parts.join("/"), fs::read_to_string(&path).unwrap()));
+            }
+        }
+    }
+    pages.sort();
+    assert!(pages.len() >= 30, "only {} pages found", pages.len());
+    pages
 }
 
 fn assert_none(violations: &[Violation]) {
@@ -126,4 +150,22 @@ fn no_violation_is_new_and_none_is_listed_in_vain() {
         let listed = xtask::ratchet::listed(&root, rule.name).unwrap();
         assert_none(&xtask::ratchet::differences(&found, &listed));
     }
+}
+
+#[test]
+fn pages_and_comments_point_to_what_is_there() {
+    let root = workspace();
+    let sources = rust_files();
+    let mut found = Vec::new();
+    for (path, page) in pages() {
+        let lines = page.lines().enumerate().map(|(number, line)| (number + 1, line));
+        found.extend(signposts::broken_links(&root, &path, &page));
+        found.extend(signposts::gone_paths(&root, &path, signposts::prose(&page)));
+        found.extend(signposts::idle_filters(&sources, &path, lines));
+    }
+    for RustFile { path, text, .. } in &sources {
+        found.extend(signposts::gone_paths(&root, path, signposts::documentation(text)));
+        found.extend(signposts::idle_filters(&sources, path, signposts::documentation(text)));
+    }
+    assert_none(&found);
 }

@@ -260,13 +260,13 @@ fn a_luminaire_can_change_its_format() {
     assert!(!folder.path("never.ldt").exists());
 }
 
-/// The README shows what the example prints.
+/// The page on luminaire files shows what the example prints.
 #[test]
-fn the_readme_is_right() {
+fn the_page_on_luminaires_is_right() {
     let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
-    let readme = std::fs::read_to_string(format!("{root}/README.md")).expect("a README");
+    let page = std::fs::read_to_string(format!("{root}/docs/luminaires.md")).expect("a page");
     let mut command =
-        Folder::new("photometry-readme").command(&["photometry", "examples/office/batwing.ies"]);
+        Folder::new("photometry-page").command(&["photometry", "examples/office/batwing.ies"]);
     let run = Run::new(command.current_dir(root).output().expect("the program starts"));
-    assert!(readme.contains(&format!("```\n{}```\n", run.stdout)), "{}", run.stdout);
+    assert!(page.contains(&format!("```\n{}```\n", run.stdout)), "{}", run.stdout);
 }
