@@ -63,12 +63,10 @@ emitters.
 
 BOUND = """## What the bound on unseen light costs
 
-    quasilux run room.toml --rel-tol 1% [--unseen-tol off]
-
-In the tables above nothing waits for the bound on light that no sample met. Here every point of
-the same rooms is known to a half-width of 1 %, and then, as by default, to 5 % of unseen light too:
-seconds from start to end, and the largest bound over value that is left. Other programs state
-neither.
+In the tables above nothing waits for the bound on light that no sample met. Here every point of the
+same rooms is known to a half-width of 1 % (`--rel-tol 1% --unseen-tol off`), and then, as by
+default, to 5 % of unseen light too: seconds from start to end, and the largest bound over value
+that is left. Other programs state neither.
 """
 
 AGREEMENT = """## Do they compute the same room?
