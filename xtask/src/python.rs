@@ -1,5 +1,5 @@
 //! The step for the Python package: its wheel in a fresh virtual environment, and all that a user
-//! of the package relies on there.
+//! of the package relies on there; and the site of the program, which a package of Python makes.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -45,11 +45,12 @@ pub(crate) fn check(root: &Path) -> Result<(), Failure> {
 
 /// What is checked, in this order: its name, the module of Python and its arguments, in the
 /// package's folder.
-const CHECKS: [[&str; 3]; 4] = [
+const CHECKS: [[&str; 3]; 5] = [
     ["pytest", "pytest", "-q --no-header tests"],
     ["stubs against the module", "mypy.stubtest", "quasilux._native --ignore-disjoint-bases"],
     ["types", "pyright", "--pythonpath {python} python tests"],
-    ["documentation", "mkdocs", "build --strict --quiet --site-dir {folder}/site"],
+    ["site of the program", "mkdocs", "build -f ../../mkdocs.yml --strict -q -d {folder}/site"],
+    ["site of the package", "mkdocs", "build --strict -q -d {folder}/site/python"],
 ];
 
 /// A Python that is new enough and can make virtual environments.
