@@ -4,9 +4,17 @@
 //! independent replicates, from which intervals follow. It cannot fail, and reads neither the clock
 //! nor files: progress and cancellation go through one [`Observer`].
 //!
-//! A run can be kept and gone on with ([`resume`]), or cut into parts and put together
-//! ([`trace_part`], [`merge`]), or have other processes trace most of it
-//! ([`simulate_with_workers`], [`trace_blocks`]), to the same bits.
+//! Four things can be done with a run, each with a program in `examples/`:
+//!
+//! - run it to a tolerance and read its intervals and bounds: [`check`], [`simulate`]
+//!   (`illuminance`);
+//! - watch it, and stop it for a reason of one's own: [`Observer`], [`Control`] (`stop`);
+//! - keep its state and go on from there, to the same bits: [`resume`] (`resume`);
+//! - cut it into parts for several machines, to the same bits: [`trace_part`], [`merge`] (`parts`),
+//!   or have other processes trace most of it: [`simulate_with_workers`], [`trace_blocks`].
+//!
+//! Beside them, [`simulate_year`] has the hours of a year, [`daylight_components`] the components
+//! of daylight, and [`explain`](fn@explain) says where the variance comes from.
 //!
 //! The folders depend one way, each on those before it:
 //!
@@ -49,38 +57,47 @@ mod spectrum;
 mod stats;
 mod world;
 
-pub use annual::{
-    OtherRoom, PointOfYear, Sunlight, YearHours, YearObserver, YearProgress, YearRun, YearWork,
-    seen_suns, simulate_year, sunlit_points,
-};
-pub use bsdf::Scattering;
-pub use codec::StateError;
-pub use daylight_factor::{DaylightComponents, FoundIlluminance, daylight_components};
-pub use explain::{Explanation, explain};
+// A run: what it is asked for, and what it gives.
 pub use prepared::PreparedScene;
-pub use quasilux_sampling::DimensionHistogram;
-pub use run::blocks::{BlockTracer, trace_blocks};
 pub use run::check::{CheckError, check};
 pub use run::memory::MemoryNeed;
-pub use run::parts::{MergeError, decide, merge, trace_part};
 pub use run::simulate::{is_over, resume, simulate, simulate_with_workers};
-pub use run::trial;
 pub use settings::{
     EstimatorKind, IntervalKind, Reconstruction, Settings, Switch, ToleranceOn, UnseenTolerance,
 };
 pub use stats::certified::{self, CertifiedInterval, IndexTotals};
-pub use stats::convergence;
-pub use stats::decisions::Decisions;
 pub use stats::estimates::{
     self, Convergence, Dimensions, Estimates, FluxBalance, SensorEstimates, TermEstimates,
 };
 pub use stats::even_average::EvenAverage;
 pub use stats::interval::{self, Interval};
-pub use stats::observer::{self, Control, Observer, PictureProgress, Progress, Snapshot};
 pub use stats::picture::{CameraEstimates, Pixel};
 pub use stats::point_status::{Evidence, PointStatus};
 pub use stats::unseen::{self, UnseenLight};
+
+// Watching it.
+pub use codec::StateError;
+pub use stats::convergence;
+pub use stats::observer::{self, Control, Observer, PictureProgress, Progress, Snapshot};
+
+// Its parts, on other machines and in other processes.
+pub use run::blocks::{BlockTracer, trace_blocks};
+pub use run::parts::{MergeError, decide, merge, trace_part};
+pub use stats::decisions::Decisions;
 pub use stats::workers::{Received, Workers};
+
+// Daylight.
+pub use annual::{
+    OtherRoom, PointOfYear, Sunlight, YearHours, YearObserver, YearProgress, YearRun, YearWork,
+    seen_suns, simulate_year, sunlit_points,
+};
+pub use daylight_factor::{DaylightComponents, FoundIlluminance, daylight_components};
+
+// Research.
+pub use bsdf::Scattering;
+pub use explain::{Explanation, explain};
+pub use quasilux_sampling::DimensionHistogram;
+pub use run::trial;
 
 /// Tests the example of the README.
 #[cfg(doctest)]
