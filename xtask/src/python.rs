@@ -49,8 +49,8 @@ const CHECKS: [[&str; 3]; 5] = [
     ["pytest", "pytest", "-q --no-header tests"],
     ["stubs against the module", "mypy.stubtest", "quasilux._native --ignore-disjoint-bases"],
     ["types", "pyright", "--pythonpath {python} python tests"],
-    ["site of the program", "mkdocs", "build -f ../../mkdocs.yml --strict -q -d {folder}/site"],
-    ["site of the package", "mkdocs", "build --strict -q -d {folder}/site/python"],
+    ["site of the program", "mkdocs", "build -f ../../mkdocs.yml --strict -d {folder}/site"],
+    ["site of the package", "mkdocs", "build --strict -d {folder}/site/python"],
 ];
 
 /// A Python that is new enough and can make virtual environments.

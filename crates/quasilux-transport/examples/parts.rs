@@ -17,6 +17,9 @@ fn main() {
     println!("parts of {} and {} bytes", parts[0].len(), parts[1].len());
     let parts: Vec<&[u8]> = parts.iter().map(Vec::as_slice).collect();
     let estimates = merge(&scene, &settings, SAMPLES, &parts, &mut ()).expect("all indices");
+    let whole = part(0..SAMPLES);
+    let in_one = merge(&scene, &settings, SAMPLES, &[&whole], &mut ()).expect("all indices");
+    assert!(estimates.sensors == in_one.sensors, "the same bits however it is cut");
     for interval in estimates.point_intervals(0) {
         println!("{:.1} ± {:.1} lx", interval.value, interval.half_width.expect("an interval"));
     }

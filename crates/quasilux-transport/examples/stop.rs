@@ -24,6 +24,7 @@ fn main() {
     let estimates = simulate(&room::room(), &settings, &mut UntilFirstPoint);
     // What a run has at its last checkpoint is its result.
     println!("stopped with {} samples", estimates.samples);
+    assert!(estimates.point_intervals(0)[0].half_width.is_some_and(|it| it < 5.0));
 }
 
 #[test]

@@ -113,7 +113,8 @@ impl Document {
                         .map_err(|failure| format!("{place}: {failure}"))?;
                 }
                 Some("toml") => self.expect_use(block, &place)?,
-                Some("rust") => {}
+                // Geometry that a project file names.
+                Some("rust" | "obj") => {}
                 Some(other) => return Err(format!("{place}: nobody checks {other:?}")),
             }
         }
@@ -142,8 +143,16 @@ impl Document {
         }
     }
 
-    /// Writes the project files that the document shows, under the names that it gives.
+    /// Writes the project files and the geometry that the document shows, under the names that it
+    /// gives.
     fn write_projects(&self) -> Result<(), Failure> {
+        for block in self.blocks.iter().filter(|b| b.language.as_deref() == Some("obj")) {
+            let place = format!("{}:{}", self.name, block.line);
+            let name = block.name_before(".obj");
+            let name = name.ok_or_else(|| format!("{place}: no name before it: `NAME.obj`"))?;
+            fs::write(self.scratch.join(name), block.lines.join("\n"))
+                .map_err(|error| format!("{place}: {error}"))?;
+        }
         for block in self.blocks.iter().filter(|b| b.language.as_deref() == Some("toml")) {
             let place = format!("{}:{}", self.name, block.line);
             let text = block.lines.join("\n");
@@ -160,7 +169,7 @@ impl Document {
             }
             write(project_name(block, &place)?, &text)?;
             let [room, geometry] = ROOM;
-            if text.contains(&format!("\"{room}\"")) {
+            if text.contains(&format!("\"{room}\"")) && !self.scratch.join(room).exists() {
                 write(room, geometry)?;
             }
         }
@@ -233,7 +242,10 @@ mod tests {
                     }
                     Some("toml") if !is_case(block) => document.expect_use(block, &place).unwrap(),
                     Some(language) => {
-                        assert!(["", "rust", "toml"].contains(&language), "{place}: {language}");
+                        assert!(
+                            ["", "obj", "rust", "toml"].contains(&language),
+                            "{place}: {language}"
+                        );
                     }
                 }
             }

@@ -60,7 +60,7 @@ pub(crate) fn gone_paths<'a>(
 ) -> Vec<Violation> {
     let folder = root.join(path).parent().expect("a folder").to_owned();
     let mut violations = Vec::new();
-    for (line, text) in text {
+    for (line, text) in paragraphs(text) {
         for word in text.split('`').skip(1).step_by(2) {
             let is_path = |c: char| c.is_ascii_alphanumeric() || "_-./".contains(c);
             let is_named = FOLDERS.iter().any(|folder| word.starts_with(folder))
@@ -76,30 +76,71 @@ pub(crate) fn gone_paths<'a>(
     violations
 }
 
-/// Calls of `cargo test` in `text` whose last word before `--` picks no test: it is in no path of a
-/// file of that crate with tests, and in no name of a function there.
+/// Calls of `cargo test` in `text` whose filter picks no test of the crate that they name: it is in
+/// no path of a file with tests, and in no name of a test there.
 pub(crate) fn idle_filters<'a>(
     sources: &[RustFile],
     path: &str,
     text: impl Iterator<Item = (usize, &'a str)>,
 ) -> Vec<Violation> {
     let mut violations = Vec::new();
-    for (line, text) in text {
-        let Some((_, call)) = text.split_once("cargo test -p ") else { continue };
-        let call = call.split(['`']).next().unwrap_or_default();
-        let words: Vec<&str> = call.split_whitespace().take_while(|word| *word != "--").collect();
-        let [package, .., filter] = &words[..] else { continue };
-        let of_crate = format!("crates/{package}/");
-        let picks = |file: &&RustFile| {
-            let names = file.text.lines().filter_map(|line| line.trim_start().strip_prefix("fn "));
-            file.path.contains(filter) || names.clone().any(|name| name.contains(filter))
-        };
-        let tested = sources.iter().filter(|file| file.path.starts_with(&of_crate));
-        if !tested.filter(|file| file.text.contains("#[test]")).any(|file| picks(&file)) {
-            violations.push(format!("{path}:{line}: `{filter}` picks no test"));
+    for (line, text) in paragraphs(text) {
+        for (place, call) in text.match_indices("cargo test ") {
+            let (before, after) = (&text[..place], &text[place + call.len()..]);
+            let end = if before.matches('`').count() % 2 == 1 { '`' } else { '\n' };
+            let Some((package, filter)) = package_and_filter(after.split(end).next().unwrap())
+            else {
+                continue;
+            };
+            if !sources.iter().any(|file| picks(file, package, filter)) {
+                violations.push(format!("{path}:{line}: `{filter}` picks no test"));
+            }
         }
     }
     violations
+}
+
+/// The crate and the filter of a call of `cargo test` with these arguments, where it has both.
+fn package_and_filter(arguments: &str) -> Option<(&str, &str)> {
+    let (mut package, mut filter) = (None, None);
+    let mut words = arguments.split_whitespace().take_while(|word| *word != "--");
+    while let Some(word) = words.next() {
+        match word {
+            "-p" | "--package" => package = words.next(),
+            "--test" | "--profile" | "--example" | "--bin" => drop(words.next()),
+            word if word.starts_with('-') => {}
+            word => filter = Some(word),
+        }
+    }
+    package.zip(filter)
+}
+
+fn picks(file: &RustFile, package: &str, filter: &str) -> bool {
+    let Some((_, below)) = file.path.split_once(&format!("/{package}/")) else { return false };
+    let mut attributed = file.text.split("#[test]").skip(1);
+    let is_tested = attributed.clone().next().is_some();
+    let name = |item: &str| {
+        let after = item.split_once("fn ").map_or("", |(_, after)| after);
+        after.split('(').next().unwrap_or_default().contains(filter)
+    };
+    is_tested && (below.contains(filter) || attributed.any(name))
+}
+
+/// Lines that follow each other, put together, with the number of the first.
+fn paragraphs<'a>(lines: impl Iterator<Item = (usize, &'a str)>) -> Vec<(usize, String)> {
+    let mut paragraphs: Vec<(usize, String)> = Vec::new();
+    let mut last = 0;
+    for (number, line) in lines.filter(|(_, line)| !line.trim().is_empty()) {
+        match paragraphs.last_mut() {
+            Some((_, paragraph)) if number == last + 1 => {
+                paragraph.push('\n');
+                paragraph.push_str(line);
+            }
+            _ => paragraphs.push((number, line.to_owned())),
+        }
+        last = number;
+    }
+    paragraphs
 }
 
 /// The lines of a page that are not code, with their numbers.
@@ -157,10 +198,12 @@ mod tests {
     fn a_filter_that_picks_no_test_is_found() {
         let tests = "#[test]\nfn a_cube_is_bright() {}\n";
         let sources = [RustFile::new("crates/a/src/cube.rs", tests)];
-        let page = "cargo test -p a bright\ncargo test -p a --lib cube -- --nocapture\n\
-                    `cargo test -p a dark` and more\n";
+        let page = "cargo test --release -p a bright\ncargo test -p a --lib cube -- --nocapture\n\n\
+                    `cargo test -p a` is all, `cargo test -p\na dark` nothing, as with\n\n\
+                    cargo test -p b cube\n";
         let lines = page.lines().enumerate();
-        assert_eq!(idle_filters(&sources, "a.md", lines), ["a.md:2: `dark` picks no test"]);
+        let found = idle_filters(&sources, "a.md", lines);
+        assert_eq!(found, ["a.md:3: `dark` picks no test", "a.md:6: `cube` picks no test"]);
     }
 
     #[test]
