@@ -13,7 +13,7 @@ const LEFT_OUT: [LeftOut; 13] = [
     LeftOut::anywhere("cargo test ", "`cargo xtask test tests` runs all tests"),
     LeftOut::anywhere("cargo install ", "installs what has been published"),
     LeftOut::anywhere("cargo run --release -p ", "benchmarks: minutes, and times of one machine"),
-    LeftOut::anywhere("cargo run --release -- experiment coverage", "12 minutes"),
+    LeftOut::anywhere("cargo run --release -- experiment coverage", "an hour"),
     LeftOut::anywhere("python3 benches/peers/", "needs other programs"),
     LeftOut::anywhere("rtrace ", "a program of Radiance"),
     LeftOut::anywhere("sh local.sh ", "`cargo xtask test examples` does the same"),

@@ -5,8 +5,8 @@
 //! reach, at one look or another. Intervals are looked at twice: at the first checkpoint, where the
 //! number of samples is fixed, and where the run stops. Each point, the average and the minimum of
 //! a sensor has its own count of how often its 95 % interval covers the truth. A count fails where
-//! a binomial test refuses that it comes from a coverage of 93.5 % to 96.5 %, all counts together
-//! at 1 % (Sidak 1967).
+//! a binomial test refuses that it comes from a coverage of 93.5 % to 96.5 %, or of 93.5 % and more
+//! for a minimum, all counts together at 1 % (Sidak 1967).
 
 mod count;
 mod known_scene;

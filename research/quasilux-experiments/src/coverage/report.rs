@@ -141,8 +141,9 @@ fn percent(share: f64) -> String {
 fn judgement(counts: &[Count], verdict: &Verdict) -> String {
     let narrow = Verdict::new(counts, NARROW).failed();
     let mut text = format!(
-        "\nOf {} counts {} fail the binomial test of a coverage from 93.5 to 96.5 % (all together \
-         at 1 %, Sidak).\n\
+        "\nOf {} counts {} fail the binomial test of a coverage from 93.5 to 96.5 %, of minima \
+         from 93.5 % on (all\n\
+         together at 1 %, Sidak).\n\
          Were the intervals 30 % narrower, {narrow} would.\n",
         counts.len(),
         verdict.failed(),

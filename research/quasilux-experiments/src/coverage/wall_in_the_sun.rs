@@ -70,7 +70,7 @@ pub(super) fn year() -> KnownScene {
         scene,
         hours,
         estimator: EstimatorKind::Path,
-        rel_tol: [0.01, 0.02],
+        rel_tol: [0.01, 0.024],
     }
 }
 
