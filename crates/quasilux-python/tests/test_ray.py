@@ -49,7 +49,7 @@ def blocks_traced(caplog: pytest.LogCaptureFixture) -> int:
 
 @pytest.mark.parametrize(
     ("estimator", "samples"),
-    [("auto", 1 << 9), ("path", 1 << 9), ("photon", 1 << 17), ("bidirectional", 1 << 8)],
+    [("auto", 1 << 8), ("path", 1 << 9), ("photon", 1 << 17)],
 )
 def test_results_have_the_bits_of_one_process(
     cluster: None, caplog: pytest.LogCaptureFixture, estimator: Any, samples: int
@@ -83,9 +83,9 @@ def test_scenes_of_arrays_are_shipped_whole(
             }
         },
     )
-    expected = quasilux.simulate(scene, rel_tol=0.001)
+    expected = quasilux.simulate(scene, rel_tol=0.003)
     with caplog.at_level("INFO", logger="quasilux.ray"):
-        assert same_bits(quasilux.ray.simulate(scene, rel_tol=0.001), expected)
+        assert same_bits(quasilux.ray.simulate(scene, rel_tol=0.003), expected)
     assert blocks_traced(caplog) > 0
 
 

@@ -85,8 +85,8 @@ fn hits_of_another_light_are_no_hits_of_a_glint() {
 }
 
 /// What comes over the mirror has a closed form: the image of a small source, `r L A cos cos /
-/// d^2`, on top of what there is without it. Six places of the light, sixteen in the deep variant: a bound
-/// that is less than the glint which its value misses is found at each.
+/// d^2`, on top of what there is without it. Six places of the light, sixteen in the deep variant:
+/// at each a bound is found that is less than the glint which its value misses.
 fn assert_glints_are_known(room: &Scene, luminance_cd_m2: f64) {
     let without = run(room, 1, 1 << 12).point_intervals(0);
     for seed in 0..if deep() { 16 } else { 6 } {
