@@ -24,7 +24,8 @@ const FLOOR_OBJ: &str =
     "o floor\nusemtl black\nv -2 -2 0\nv 2 -2 0\nv 2 2 0\nv -2 2 0\nf 1 2 3 4\n";
 
 /// All of them in the deep variant. Else of each room that has a case for each of the 16 CIE skies
-/// four, so that each sky is that of three rooms: a room that is wrong, or a sky, is found.
+/// two, so that each sky is that of a room: a room that is wrong, or a sky, is found. The furnace
+/// that reflects 0.9, which takes as long as the rest, is one of the tests of `quasilux-transport`.
 #[test]
 fn cases_of_the_project_hold() {
     let folder = folder("validate_project");
@@ -36,10 +37,13 @@ fn cases_of_the_project_hold() {
     let mut rooms = BTreeSet::new();
     for path in &paths {
         let name = path.file_stem().and_then(|name| name.to_str()).expect("a name in ASCII");
+        if !deep() && name == "furnace_90" {
+            continue;
+        }
         if let Some((room, sky)) = name.split_once("_sky_") {
             rooms.insert(room);
             let sky: usize = sky.parse().expect("the number of a sky");
-            if !deep() && (rooms.len() + sky) % 4 != 0 {
+            if !deep() && (rooms.len() + sky) % 8 != 0 {
                 continue;
             }
         }
