@@ -43,7 +43,7 @@ fn cases_of_the_project_hold() {
         if let Some((room, sky)) = name.split_once("_sky_") {
             rooms.insert(room);
             let sky: usize = sky.parse().expect("the number of a sky");
-            if !deep() && (rooms.len() + sky) % 8 != 0 {
+            if !deep() && !(rooms.len() + sky).is_multiple_of(8) {
                 continue;
             }
         }
