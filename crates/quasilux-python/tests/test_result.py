@@ -258,10 +258,13 @@ def test_plots_have_the_colours_of_the_pictures(result: quasilux.Result) -> None
     result["board"].plot(value="half_width_lx")
     view = result.cameras["view"]
     norm = view.plot().images[0].norm
+    scale = _native.luminance_scale(view.luminance_cd_m2)
+    high = scale["high"]
+    assert (norm.vmin, norm.vmax) == (scale["low"], high)
     # A number 1, 2 or 5 times a power of ten, just above the brightest pixel.
     brightest = float(view.luminance_cd_m2.max())
-    assert brightest <= norm.vmax < 2.51 * brightest
-    assert f"{norm.vmax:.0e}"[0] in "125" and math.isclose(norm.vmax, float(f"{norm.vmax:.0e}"))
+    assert brightest <= high < 2.51 * brightest
+    assert f"{high:.0e}"[0] in "125" and math.isclose(high, float(f"{high:.0e}"))
     figure.canvas.draw()
     with pytest.raises(ValueError, match="value is 'lx'"):
         result["board"].plot(value="lx")
