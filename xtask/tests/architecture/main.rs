@@ -1,8 +1,8 @@
 //! The rules of the house that no compiler checks.
 //!
 //! [`arrows`] reads the manifests, [`absences`] the sources, [`signposts`] what pages and comments
-//! point to. Each rule is a function from text to
-//! violations, with a test of its own that proves it rejects a made-up one.
+//! point to. Each rule is a function from text to violations, with a test of its own that proves it
+//! rejects a made-up one.
 
 mod absences;
 mod arrows;
@@ -43,51 +43,42 @@ fn manifests() -> Vec<(String, toml::Table)> {
 /// All Rust files of the workspace, with paths relative to it.
 fn rust_files() -> Vec<RustFile> {
     let root = workspace();
-    let mut files = Vec::new();
-    let mut folders: Vec<PathBuf> =
-        ["crates", "research", "validation", "xtask", "benches", "fuzz"]
-            .iter()
-            .map(|name| root.join(name))
-            .collect();
+    let folders = ["crates", "research", "validation", "xtask", "benches", "fuzz"];
+    let files = texts(folders.iter().map(|name| root.join(name)).collect(), ".rs");
+    assert!(files.len() >= 20, "only {} Rust files found", files.len());
+    files.iter().map(|(path, text)| RustFile::new(path, text)).collect()
+}
+
+/// All pages of the repository, with paths relative to it.
+fn pages() -> Vec<(String, String)> {
+    let pages = texts(vec![workspace()], ".md");
+    assert!(pages.len() >= 30, "only {} pages found", pages.len());
+    pages
+}
+
+/// Paths, relative to the workspace, and texts of all files in these folders whose names end so;
+/// without what is hidden and what is built.
+fn texts(mut folders: Vec<PathBuf>, ending: &str) -> Vec<(String, String)> {
+    let root = workspace();
+    let mut texts = Vec::new();
     while let Some(folder) = folders.pop() {
         let Ok(entries) = fs::read_dir(&folder) else {
             continue;
         };
         for path in entries.map(|entry| entry.unwrap().path()) {
-            if path.is_dir() && path.file_name().is_some_and(|name| name != "target") {
-                folders.push(path);
-            } else if path.extension().is_some_and(|extension| extension == "rs") {
-                let parts: Vec<_> = path.strip_prefix(&root).unwrap().iter().collect();
-                let name: Vec<_> = parts.iter().map(|part| part.to_str().unwrap()).collect();
-                files.push(RustFile::new(&name.join("/"), &fs::read_to_string(&path).unwrap()));
-            }
-        }
-    }
-    files.sort_by(|a, b| a.path.cmp(&b.path));
-    assert!(files.len() >= 20, "only {} Rust files found", files.len());
-    files
-}
-
-/// All pages of the repository, with paths relative to it.
-fn pages() -> Vec<(String, String)> {
-    let root = workspace();
-    let mut pages = Vec::new();
-    let mut folders = vec![root.clone()];
-    while let Some(folder) = folders.pop() {
-        for path in fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path()) {
-            let name = path.file_name().unwrap().to_str().unwrap().to_owned();
+            let name = path.file_name().unwrap().to_string_lossy();
             if path.is_dir() {
-                folders.extend((name != "target" && !name.starts_with('.')).then_some(path));
-            } else if name.ends_with(".md") {
+                let is_own = name != "target" && !name.starts_with('.');
+                folders.extend(is_own.then(|| path.clone()));
+            } else if name.ends_with(ending) {
                 let parts: Vec<_> = path.strip_prefix(&root).unwrap().iter().collect();
                 let parts: Vec<_> = parts.iter().map(|part| part.to_str().unwrap()).collect();
-                pages.push((parts.join("/"), fs::read_to_string(&path).unwrap()));
+                texts.push((parts.join("/"), fs::read_to_string(&path).unwrap()));
             }
         }
     }
-    pages.sort();
-    assert!(pages.len() >= 30, "only {} pages found", pages.len());
-    pages
+    texts.sort();
+    texts
 }
 
 fn assert_none(violations: &[Violation]) {
