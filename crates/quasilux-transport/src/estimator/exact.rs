@@ -42,7 +42,7 @@ impl Exact {
 
     /// Leaves out what the results cannot hold, and says how much that was: a light right at a
     /// sensor point has no illuminance to speak of.
-    pub(super) fn drop_invalid(&mut self) -> u64 {
+    fn drop_invalid(&mut self) -> u64 {
         let Self { direct_lx, mirrored_lx, .. } = self;
         let mut dropped = 0;
         for value_lx in [direct_lx, mirrored_lx] {
@@ -55,14 +55,22 @@ impl Exact {
     }
 }
 
+/// What is computed of all targets before the first sample.
+pub(crate) struct ComputedLight {
+    /// By target, nothing at cells.
+    pub(crate) of_targets: Vec<Exact>,
+    /// Values that were left out because results cannot hold them.
+    pub(crate) invalid: u64,
+    pub(crate) rays: u64,
+}
+
 /// Light of the point-like lights, straight and by mirrors, at each target that is a point: all of
 /// them tested. `None` when the observer stopped it.
-pub(crate) fn exact<S: Spectrum>(
+pub(crate) fn computed_light<S: Spectrum>(
     context: &Context<'_, S>,
     targets: &[Target],
-    rays: &mut u64,
     watch: &mut Watch<'_>,
-) -> Option<Vec<Exact>> {
+) -> Option<ComputedLight> {
     let light = |targets: &&[Target]| {
         let mut exact = vec![Exact::new(context.listed_terms); targets.len()];
         let receiver = |(who, target): (u32, &Target)| match *target {
@@ -83,10 +91,11 @@ pub(crate) fn exact<S: Spectrum>(
         (exact, shadows.rays)
     };
     let chunks: Vec<&[Target]> = targets.chunks(TARGETS).collect();
-    let mut all = Vec::with_capacity(targets.len());
-    for (exact, of_chunk) in watch.map_in_parts(&chunks, AT_ONCE, light)? {
-        all.extend(exact);
-        *rays += of_chunk;
+    let mut computed = ComputedLight { of_targets: Vec::new(), invalid: 0, rays: 0 };
+    for (exact, rays) in watch.map_in_parts(&chunks, AT_ONCE, light)? {
+        computed.of_targets.extend(exact);
+        computed.rays += rays;
     }
-    Some(all)
+    computed.invalid = computed.of_targets.iter_mut().map(Exact::drop_invalid).sum();
+    Some(computed)
 }

@@ -5,6 +5,7 @@ pub(crate) mod block;
 pub(crate) mod exact;
 pub(crate) mod path_estimator;
 pub(crate) mod photon_estimator;
+pub(crate) mod progress;
 
 use crate::codec::{Reader, StateError, Writer};
 use crate::context::Context;

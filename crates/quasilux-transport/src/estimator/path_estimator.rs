@@ -12,7 +12,8 @@ use crate::context::{Context, Stream};
 use crate::cutoff;
 use crate::estimator::Estimator;
 use crate::estimator::block::BlockFrame;
-use crate::estimator::exact::{Exact, exact};
+use crate::estimator::exact::{ComputedLight, Exact, computed_light};
+use crate::estimator::progress::TargetProgress;
 use crate::path::end::{PathEnd, Prepared};
 use crate::path::sections::{PathSums, Piece, Section, WorkCounts, trace_sections};
 use crate::path::wave::PathWave;
@@ -41,39 +42,27 @@ pub(crate) struct PathEstimator<'a, S> {
     context: &'a Context<'a, S>,
     scene: &'a Scene,
     targets: Vec<Target>,
-    /// Of each target that is a point.
-    exact: Vec<Exact>,
-    end: PathEnd<S>,
-    caustics: Option<CausticMap<S>>,
+    computed: ComputedLight,
+    /// Targets to which light that is sampled may come straight.
+    samples_direct: Vec<bool>,
+    shared: SharedLight<S>,
     replicates: u32,
     quantum: Quantum,
     /// Of target t in replicate r at `t * replicates + r`.
     sums: Vec<PathSums>,
     /// Of each target.
     scores: Vec<Scores>,
-    /// The first index.
-    first: u64,
-    /// Indices of the last checkpoint.
-    samples: u64,
-    /// Indices that photons which serve all paths are traced for, where they are traced for
-    /// blocks of another process.
-    map_samples: u64,
-    /// Targets that get more paths, in order.
-    growing: Vec<usize>,
-    /// Of each target that gets no more, the index that it ends before.
-    ends: Vec<Option<u64>>,
-    /// Paths that are over since then, in the order of `sums`.
-    done: u64,
-    /// Before the first sample.
-    prepared: Costs,
-    /// Of photons that serve all paths.
-    shared: Costs,
-    /// Of the paths, and of photons that come with each.
-    contribution: Costs,
-    /// Targets whose direct light is not finite.
-    invalid_points: u64,
-    /// Targets to which light that is sampled may come straight.
-    samples_direct: Vec<bool>,
+    /// In paths, in the order of `sums`.
+    progress: TargetProgress,
+    costs: CostsByKind,
+}
+
+/// Photons that serve all paths.
+struct SharedLight<S> {
+    end: PathEnd<S>,
+    caustics: Option<CausticMap<S>>,
+    /// Indices that they are traced for, where that is for blocks of another process.
+    traced_for: u64,
     /// What each target showed before the maps last changed.
     last_lx: Vec<Option<f64>>,
 }
@@ -83,6 +72,28 @@ pub(crate) struct PathEstimator<'a, S> {
 struct Costs {
     work: WorkCounts,
     photons: PhotonCounts,
+}
+
+/// What was traced, by what it serves.
+struct CostsByKind {
+    /// Before the first sample.
+    prepared: Costs,
+    /// Of photons that serve all paths.
+    shared: Costs,
+    /// Of the paths, and of photons that come with each.
+    paths: Costs,
+}
+
+impl CostsByKind {
+    /// All that was traced.
+    fn total(&self) -> Costs {
+        let Self { prepared, shared, paths } = self;
+        [shared, paths].into_iter().fold(prepared.clone(), |mut sum, costs| {
+            sum.work += costs.work.clone();
+            sum.photons += costs.photons.clone();
+            sum
+        })
+    }
 }
 
 impl<'a, S: Spectrum> PathEstimator<'a, S> {
@@ -96,36 +107,34 @@ impl<'a, S: Spectrum> PathEstimator<'a, S> {
     ) -> Option<Self> {
         let targets = targets(scene);
         let replicates = settings.effective_replicates();
-        let mut work = WorkCounts::default();
-        let mut exact = exact(context, &targets, &mut work.rays, watch)?;
-        let invalid_points = exact.iter_mut().map(Exact::drop_invalid).sum();
+        let computed = computed_light(context, &targets, watch)?;
         let samples_direct = targets.iter().map(|target| samples_direct(context, target)).collect();
         let quantum = Quantum::for_reference(context.lights.reference_lx(&context.world));
         let Prepared { end, counts: photons } =
             PathEnd::prepare(context, settings, &targets, watch);
+        let work = WorkCounts { rays: computed.rays, ..WorkCounts::default() };
         Some(Self {
             context,
             scene,
-            caustics: CausticMap::new(context, settings, &targets),
-            exact,
-            end,
+            computed,
+            samples_direct,
+            shared: SharedLight {
+                end,
+                caustics: CausticMap::new(context, settings, &targets),
+                traced_for: 0,
+                last_lx: vec![None; targets.len()],
+            },
             replicates,
-            last_lx: vec![None; targets.len()],
             quantum,
             sums: vec![PathSums::default(); targets.len() * replicates as usize],
             scores: vec![Scores::default(); targets.len()],
-            growing: (0..targets.len()).collect(),
-            ends: vec![None; targets.len()],
+            progress: TargetProgress::new(targets.len()),
             targets,
-            first: 0,
-            samples: 0,
-            map_samples: 0,
-            done: 0,
-            prepared: Costs { work, photons },
-            shared: Costs::default(),
-            contribution: Costs::default(),
-            invalid_points,
-            samples_direct,
+            costs: CostsByKind {
+                prepared: Costs { work, photons },
+                shared: Costs::default(),
+                paths: Costs::default(),
+            },
         })
     }
 
@@ -151,14 +160,14 @@ impl<'a, S: Spectrum> PathEstimator<'a, S> {
 
     /// The paths `indices` of the pair `number` of a growing target and a replicate.
     fn section(&self, number: u64, indices: Range<u64>) -> Section<'_, S> {
-        let target = self.growing[(number / u64::from(self.replicates)) as usize];
+        let target = self.progress.growing()[(number / u64::from(self.replicates)) as usize];
         let replicate = (number % u64::from(self.replicates)) as u32;
         Section {
             number: number as usize,
             target: self.targets[target],
             points: self.context.points(replicate, Stream::Paths(target as u64)),
-            map_end: self.end.map_end(self.context, replicate),
-            caustics: self.caustics.as_ref().and_then(|caustics| caustics.map(replicate)),
+            map_end: self.shared.end.map_end(self.context, replicate),
+            caustics: self.shared.caustics.as_ref().and_then(|caustics| caustics.map(replicate)),
             indices,
         }
     }
@@ -168,26 +177,20 @@ impl<S: Spectrum> PathEstimator<'_, S> {
     /// Where the pair `number` of a growing target and a replicate has its sums.
     fn place(&self, number: usize) -> usize {
         let replicates = self.replicates as usize;
-        self.growing[number / replicates] * replicates + number % replicates
+        self.progress.growing()[number / replicates] * replicates + number % replicates
     }
 
-    /// Leaves targets that have an end at that, with what else is done for each of them alone;
-    /// other paths and photons stay what they are.
-    fn keep_to_ends(&mut self) {
-        self.growing = (0..self.targets.len()).filter(|it| self.ends[*it].is_none()).collect();
-        if let Some(caustics) = &mut self.caustics {
-            caustics.freeze_converged(&self.ends);
+    /// Does nothing more for each target that has ended alone; other paths and photons stay what
+    /// they are.
+    fn freeze_caustics(&mut self) {
+        if let Some(caustics) = &mut self.shared.caustics {
+            caustics.freeze_converged(self.progress.ends());
         }
-    }
-
-    /// Indices that a target has.
-    fn samples_of(&self, target: usize) -> u64 {
-        self.ends[target].unwrap_or(self.samples)
     }
 
     /// Mean of a sum over the paths of a target in one replicate.
     fn mean(&self, target: usize, sum: Sum) -> f64 {
-        self.quantum.value(sum) / self.samples_of(target) as f64
+        self.quantum.value(sum) / self.progress.samples_of(target) as f64
     }
 
     /// The terms of the Neumann series that are listed, and the rest.
@@ -198,17 +201,20 @@ impl<S: Spectrum> PathEstimator<'_, S> {
         }
         let sum = |sums: &PathSums, term: usize| sums.terms.get(term).copied().unwrap_or_default();
         let caustic_lx = |r: usize, target: usize, term: usize| {
-            self.caustics.as_ref().map_or(0.0, |caustics| caustics.term_lx(r, target, term))
+            let caustics = self.shared.caustics.as_ref();
+            caustics.map_or(0.0, |caustics| caustics.term_lx(r, target, term))
         };
         let row = |term: usize, r: usize| -> Vec<f64> {
-            let own = self.sums.iter().skip(r).step_by(replicates).zip(&self.exact).enumerate();
-            own.map(|(target, (sums, exact))| {
-                let exact_lx = Some(exact.terms_lx[term]).filter(|lx| lx.is_finite());
-                exact_lx.unwrap_or(0.0)
-                    + self.mean(target, sum(sums, term))
-                    + caustic_lx(r, target, term)
-            })
-            .collect()
+            let own = self.sums.iter().skip(r).step_by(replicates);
+            own.zip(&self.computed.of_targets)
+                .enumerate()
+                .map(|(target, (sums, exact))| {
+                    let exact_lx = Some(exact.terms_lx[term]).filter(|lx| lx.is_finite());
+                    exact_lx.unwrap_or(0.0)
+                        + self.mean(target, sum(sums, term))
+                        + caustic_lx(r, target, term)
+                })
+                .collect()
         };
         let resolved = |term: usize| -> Vec<bool> {
             let cut = self.context.max_bounces.is_some_and(|most| term > most as usize);
@@ -238,17 +244,17 @@ impl<S: Spectrum> PathEstimator<'_, S> {
         let own = self.sums.iter().skip(replicate).step_by(self.replicates as usize);
         let value_lx = |(target, (sums, exact)): (usize, (&PathSums, &Exact))| {
             let sampled_lx = self.mean(target, sums.direct) + self.mean(target, sums.indirect);
-            let caustics = self.caustics.as_ref();
+            let caustics = self.shared.caustics.as_ref();
             let caustic_lx = caustics.map_or(0.0, |map| map.target_lx(replicate, target));
             exact.sum_lx() + sampled_lx + caustic_lx
         };
-        own.zip(&self.exact).enumerate().map(value_lx).collect()
+        own.zip(&self.computed.of_targets).enumerate().map(value_lx).collect()
     }
 
     /// Direct illuminances at all targets, mean over the replicates.
     fn direct_lx(&self) -> Vec<f64> {
         let replicates = self.replicates as usize;
-        let own = self.sums.chunks_exact(replicates).zip(&self.exact).enumerate();
+        let own = self.sums.chunks_exact(replicates).zip(&self.computed.of_targets).enumerate();
         own.map(|(target, (own, Exact { direct_lx, .. }))| {
             let sampled_lx = own.iter().map(|sums| self.mean(target, sums.direct));
             direct_lx + sampled_lx.sum::<f64>() / replicates as f64
@@ -258,20 +264,10 @@ impl<S: Spectrum> PathEstimator<'_, S> {
 
     /// Number of refused contributions, photons included.
     fn invalid_contributions(&self, of_photons: u64) -> u64 {
-        self.invalid_points
+        self.computed.invalid
             + of_photons
-            + self.caustics.as_ref().map_or(0, CausticMap::invalid)
+            + self.shared.caustics.as_ref().map_or(0, CausticMap::invalid)
             + self.sums.iter().map(PathSums::invalid).sum::<u64>()
-    }
-
-    /// All that was traced.
-    fn costs(&self) -> Costs {
-        let Self { prepared, shared, contribution, .. } = self;
-        [shared, contribution].into_iter().fold(prepared.clone(), |mut sum, costs| {
-            sum.work += costs.work.clone();
-            sum.photons += costs.photons.clone();
-            sum
-        })
     }
 }
 
@@ -282,15 +278,16 @@ impl<S: Spectrum> Estimator for PathEstimator<'_, S> {
     }
 
     fn estimates(&self) -> Estimates {
-        let Costs { work, photons } = self.costs();
+        let Costs { work, photons } = self.costs.total();
         let replicates = self.replicates as usize;
         let replicate_lx: Vec<Vec<f64>> = (0..replicates).map(|r| self.replicate_lx(r)).collect();
         let evidence = self.evidence(&replicate_lx);
+        let targets = 0..self.targets.len();
         let all = SensorEstimates {
             replicate_lx,
             direct_lx: self.direct_lx(),
             evidence,
-            samples: (0..self.targets.len()).map(|target| self.samples_of(target)).collect(),
+            samples: targets.map(|target| self.progress.samples_of(target)).collect(),
             average: None,
             terms: self.terms(),
             unseen: None,
@@ -299,7 +296,7 @@ impl<S: Spectrum> Estimator for PathEstimator<'_, S> {
         let warnings = photons.warning().into_iter().chain(of_paths).collect();
         Estimates {
             sensors: by_sensor(self.scene, all),
-            samples: self.samples,
+            samples: self.progress.samples,
             rays: work.rays + photons.rays,
             flux: photons.balance(self.context.lights.flux_lm),
             biased: work.endless + photons.trapped > 0,
@@ -328,7 +325,7 @@ impl<S: Spectrum> Estimator for PathEstimator<'_, S> {
     }
 
     fn trace_part(&mut self, part: Range<u64>, samples: u64, watch: &mut Watch<'_>) -> bool {
-        (self.first, self.samples) = (part.start, part.start);
+        self.progress.begin_at(part.start);
         self.serve(samples, watch) && self.gather(part.end, watch)
     }
 
@@ -357,19 +354,17 @@ impl<S: Spectrum> Estimator for PathEstimator<'_, S> {
     }
 
     fn complete_at(&mut self, samples: u64) {
-        self.samples = samples;
+        self.progress.complete(samples);
     }
 
     fn freeze_converged(&mut self, done: &[bool]) -> bool {
-        for (end, _) in self.ends.iter_mut().zip(done).filter(|(_, done)| **done) {
-            end.get_or_insert(self.samples);
-        }
-        self.keep_to_ends();
+        self.progress.freeze(done);
+        self.freeze_caustics();
         true
     }
 
     fn first_checkpoint(&self) -> u64 {
-        let photons = self.end.photons_of_an_index(self.replicates);
+        let photons = self.shared.end.photons_of_an_index(self.replicates);
         let affordable = FIRST_PATHS / photons.saturating_add(self.sums.len() as u64).max(1);
         let powers = (affordable + 1).next_power_of_two() / 2;
         powers.clamp(1, FIRST_SAMPLES)

@@ -3,7 +3,7 @@
 use super::{Pilot, Points, SampleKind, SampleSource};
 use crate::context::{Context, Stream};
 use crate::estimator::UNSTOPPED;
-use crate::estimator::exact::exact;
+use crate::estimator::exact::computed_light;
 use crate::path::end::PathEnd;
 use crate::path::sections::Section;
 use crate::path::wave::{PathWave, WAVE};
@@ -55,11 +55,11 @@ impl<'s, S: Spectrum> PathSource<'s, S> {
         let mut observer = ();
         let mut watch = Watch::new(&mut observer);
         let one = Settings { replicates: 1, ..settings.clone() };
-        let exact = exact(context, &all, &mut 0, &mut watch).expect(UNSTOPPED);
+        let computed = computed_light(context, &all, &mut watch).expect(UNSTOPPED);
         let targets = numbers.iter().map(|&number| PathTarget {
             number: number as u64,
             target: all[number],
-            given_lx: exact[number].sum_lx(),
+            given_lx: computed.of_targets[number].sum_lx(),
         });
         let mut targets: Vec<PathTarget> = targets.collect();
         let mut end = PathEnd::prepare(context, &one, &all, &mut watch).end;

@@ -13,7 +13,8 @@ use crate::context::Context;
 use crate::cutoff;
 use crate::estimator::Estimator;
 use crate::estimator::block::BlockFrame;
-use crate::estimator::exact::{Exact, exact};
+use crate::estimator::exact::{ComputedLight, Exact, computed_light};
+use crate::estimator::progress::TargetProgress;
 use crate::importance::Copies;
 use crate::path::sections::WorkCounts;
 use crate::settings::{IntervalKind, Settings, Switch};
@@ -37,27 +38,16 @@ pub(crate) struct BidirectionalEstimator<'a, S> {
     /// Whether certified intervals were asked for, and what they know of indices.
     is_certified: bool,
     samples_of_index: Option<SamplesOfIndex>,
-    /// Of each target that is a point.
-    exact: Vec<Exact>,
+    computed: ComputedLight,
     pub(super) replicates: u32,
     pub(super) quantum: Quantum,
     /// Of target t in replicate r at `t * replicates + r`.
     pub(super) sums: Vec<TargetSums>,
-    /// The first index.
-    pub(super) first: u64,
-    /// Indices of the last checkpoint.
-    pub(super) samples: u64,
-    /// Units that are over since then.
-    pub(super) done: u64,
-    /// Targets that get more paths, in order.
-    pub(super) growing: Vec<usize>,
-    /// Of each target that gets no more, the index that it ends before.
-    pub(super) ends: Vec<Option<u64>>,
+    /// In units of work.
+    pub(super) progress: TargetProgress,
     pub(super) costs: Costs,
-    /// Rays before the first sample.
-    prepared_rays: u64,
-    /// Targets whose direct light is not finite.
-    invalid_points: u64,
+    /// Rays of surveys and pilots.
+    pilot_rays: u64,
 }
 
 /// What was traced.
@@ -66,6 +56,15 @@ pub(super) struct Costs {
     pub(super) paths: WorkCounts,
     pub(super) photons: u64,
     pub(super) flux: FluxTally,
+}
+
+impl Costs {
+    /// Adds those of a unit.
+    pub(super) fn add(&mut self, unit: &UnitSums) {
+        self.paths += unit.work.clone();
+        self.photons += unit.photons;
+        self.flux += &unit.flux;
+    }
 }
 
 impl Sums for Costs {
@@ -85,9 +84,7 @@ impl<'a, S: Spectrum> BidirectionalEstimator<'a, S> {
         watch: &mut Watch<'_>,
     ) -> Option<Self> {
         let targets = targets(scene);
-        let mut prepared_rays = 0;
-        let mut exact = exact(context, &targets, &mut prepared_rays, watch)?;
-        let invalid_points = exact.iter_mut().map(Exact::drop_invalid).sum();
+        let computed = computed_light(context, &targets, watch)?;
         let mut engine = Engine::new(context, &targets, watch)?;
         let is_certified = settings.interval == IntervalKind::Certified;
         let may_copy = settings.importance != Switch::Off && context.max_bounces != Some(0);
@@ -95,9 +92,8 @@ impl<'a, S: Spectrum> BidirectionalEstimator<'a, S> {
             engine.copies = Copies::new(context, &targets, |sampler| {
                 engine.sources.pilot(&context.world, sampler)
             });
-            prepared_rays += engine.copies.rays;
         }
-        prepared_rays += plan_joins(&mut engine, watch)?;
+        let pilot_rays = engine.copies.rays + plan_joins(&mut engine, watch)?;
         let caps = Caps::new(&engine, watch)?;
         for (receiver, most_lx) in
             engine.receivers.iter_mut().zip(caps.of_samples_lx(&context.world))
@@ -114,43 +110,18 @@ impl<'a, S: Spectrum> BidirectionalEstimator<'a, S> {
             caps,
             engine,
             scene,
-            exact,
+            computed,
             replicates,
             quantum: Quantum::for_reference(context.lights.reference_lx(&context.world)),
             sums: vec![empty; targets.len() * replicates as usize],
-            first: 0,
-            samples: 0,
-            done: 0,
-            growing: (0..targets.len()).collect(),
-            ends: vec![None; targets.len()],
+            progress: TargetProgress::new(targets.len()),
             costs: Costs::default(),
-            prepared_rays,
-            invalid_points,
+            pilot_rays,
         })
     }
 
-    /// Leaves targets that have an end at that.
-    pub(super) fn keep_to_ends(&mut self) {
-        self.growing = (0..self.ends.len()).filter(|it| self.ends[*it].is_none()).collect();
-    }
-
-    /// Indices that a target has.
-    pub(super) fn samples_of(&self, target: usize) -> u64 {
-        self.ends[target].unwrap_or(self.samples)
-    }
-
-    /// Adds the sums of a unit of these targets.
-    pub(super) fn add(&mut self, replicate: u32, targets: &[usize], found: &UnitSums) {
-        for (target, sums) in targets.iter().zip(&found.sums) {
-            self.sums[target * self.replicates as usize + replicate as usize] += sums;
-        }
-        self.costs.paths += found.work.clone();
-        self.costs.photons += found.photons;
-        self.costs.flux += &found.flux;
-    }
-
     fn mean(&self, target: usize, sum: Sum) -> f64 {
-        self.quantum.value(sum) / self.samples_of(target).max(1) as f64
+        self.quantum.value(sum) / self.progress.samples_of(target).max(1) as f64
     }
 
     /// The illuminance at a target after so many indices of all replicates together; `None` without
@@ -161,7 +132,7 @@ impl<'a, S: Spectrum> BidirectionalEstimator<'a, S> {
         let of_sums =
             |sums: &TargetSums| self.quantum.value(sums.direct) + self.quantum.value(sums.indirect);
         let sampled: f64 = own.iter().map(of_sums).sum();
-        (indices > 0).then(|| self.exact[target].sum_lx() + sampled / indices as f64)
+        (indices > 0).then(|| self.computed.of_targets[target].sum_lx() + sampled / indices as f64)
     }
 
     /// The mean over the replicates of what `sum` takes of each target.
@@ -182,7 +153,8 @@ impl<'a, S: Spectrum> BidirectionalEstimator<'a, S> {
     ) -> Vec<Vec<f64>> {
         let replicates = self.replicates as usize;
         let row = |replicate: usize| {
-            let own = self.sums.iter().skip(replicate).step_by(replicates).zip(&self.exact);
+            let exact = &self.computed.of_targets;
+            let own = self.sums.iter().skip(replicate).step_by(replicates).zip(exact);
             let value_lx = |(target, (sums, exact)): (usize, (&TargetSums, &Exact))| {
                 let [a, b] = sum(sums).map(|sum| self.mean(target, sum));
                 exact_lx(exact) + a + b
@@ -203,7 +175,7 @@ impl<'a, S: Spectrum> BidirectionalEstimator<'a, S> {
                 |exact| Some(exact.terms_lx[term]).filter(|lx| lx.is_finite()).unwrap_or(0.0),
                 |sums| [sums.terms[term], Sum::default()],
             ),
-            resolved: vec![true; self.ends.len()],
+            resolved: vec![true; self.progress.targets()],
         };
         (0..=listed).map(term).collect()
     }
@@ -219,16 +191,17 @@ impl<S: Spectrum> Estimator for BidirectionalEstimator<'_, S> {
     }
 
     fn estimates(&self) -> Estimates {
-        let targets = self.ends.len();
-        let trials = |target| self.samples_of(target) as f64 * f64::from(self.replicates);
+        let progress = &self.progress;
+        let (targets, exact) = (progress.targets(), &self.computed.of_targets);
+        let trials = |target| progress.samples_of(target) as f64 * f64::from(self.replicates);
         let unseen_lx = self.caps.unseen_lx(trials);
         let direct_lx = self.mean_of(|sums| sums.direct);
-        let exact_lx = self.exact.iter().map(|exact| exact.direct_lx);
+        let exact_lx = exact.iter().map(|exact| exact.direct_lx);
         let all = SensorEstimates {
             replicate_lx: self.rows(Exact::sum_lx, |sums| [sums.direct, sums.indirect]),
             direct_lx: direct_lx.into_iter().zip(exact_lx).map(|(a, b)| a + b).collect(),
             evidence: vec![Evidence::Sound; targets],
-            samples: (0..targets).map(|target| self.samples_of(target)).collect(),
+            samples: (0..targets).map(|target| progress.samples_of(target)).collect(),
             average: None,
             terms: self.terms(),
             unseen: Some(UnseenLight {
@@ -240,7 +213,7 @@ impl<S: Spectrum> Estimator for BidirectionalEstimator<'_, S> {
                     index_totals(
                         &self.engine,
                         self.samples_of_index.as_ref(),
-                        self.exact.iter().map(Exact::sum_lx).collect(),
+                        exact.iter().map(Exact::sum_lx).collect(),
                         trials,
                     )
                 }),
@@ -258,8 +231,8 @@ impl<S: Spectrum> Estimator for BidirectionalEstimator<'_, S> {
         let (engine, Costs { paths, photons, flux }) = (&self.engine, &self.costs);
         Estimates {
             sensors,
-            samples: self.samples,
-            rays: paths.rays + self.prepared_rays,
+            samples: progress.samples,
+            rays: paths.rays + self.computed.rays + self.pilot_rays,
             flux: flux.balance(&engine.context.lights, *photons, engine.flux_quantum),
             biased: paths.endless > 0,
             warnings: cutoff::warning(paths.endless, "paths", "values").into_iter().collect(),
@@ -268,7 +241,7 @@ impl<S: Spectrum> Estimator for BidirectionalEstimator<'_, S> {
                 path: paths.dimensions.clone(),
                 ..Dimensions::default()
             },
-            invalid_contributions: self.invalid_points
+            invalid_contributions: self.computed.invalid
                 + self.sums.iter().map(TargetSums::invalid).sum::<u64>(),
             ..Estimates::default()
         }
@@ -280,7 +253,8 @@ impl<S: Spectrum> Estimator for BidirectionalEstimator<'_, S> {
             connected_photons: Some(SUBPATHS),
             digest: digest(|out| {
                 out.value(&self.quantum);
-                out.value(&self.exact.iter().map(Exact::sum_lx).collect::<Vec<f64>>());
+                let exact = self.computed.of_targets.iter();
+                out.value(&exact.map(Exact::sum_lx).collect::<Vec<f64>>());
                 out.value(&SUBPATHS);
                 copies.put(out);
                 out.value(&[*emitters_found_by, *sky_found_by]);
@@ -300,7 +274,7 @@ impl<S: Spectrum> Estimator for BidirectionalEstimator<'_, S> {
     }
 
     fn trace_part(&mut self, part: Range<u64>, _samples: u64, watch: &mut Watch<'_>) -> bool {
-        (self.first, self.samples) = (part.start, part.start);
+        self.progress.begin_at(part.start);
         self.trace_up_to(part.end, watch)
     }
 
@@ -327,14 +301,11 @@ impl<S: Spectrum> Estimator for BidirectionalEstimator<'_, S> {
     }
 
     fn complete_at(&mut self, samples: u64) {
-        self.samples = samples;
+        self.progress.complete(samples);
     }
 
     fn freeze_converged(&mut self, done: &[bool]) -> bool {
-        for (end, _) in self.ends.iter_mut().zip(done).filter(|(_, done)| **done) {
-            end.get_or_insert(self.samples);
-        }
-        self.keep_to_ends();
+        self.progress.freeze(done);
         true
     }
 

@@ -4,7 +4,7 @@
 use super::estimator::BidirectionalEstimator;
 use super::unit::{INDICES, Unit, UnitSums};
 use crate::codec::{Reader, StateError, Stored, Writer};
-use crate::estimator::block::{BlockFrame, PathProgress};
+use crate::estimator::block::BlockFrame;
 use crate::spectrum::Spectrum;
 use crate::stats::observer::Snapshot;
 use crate::stats::targets::snapshot;
@@ -63,33 +63,31 @@ impl Row {
 
 impl<S: Spectrum> BidirectionalEstimator<'_, S> {
     fn row(&self, indices: Range<u64>) -> Row {
-        let chunks = self.growing.len().div_ceil(TARGETS) as u64;
+        let chunks = self.progress.growing().len().div_ceil(TARGETS) as u64;
         Row { indices, replicates: self.replicates.into(), chunks }
     }
 
     /// Paths of a unit, at most.
     fn paths_of_a_unit(&self) -> u64 {
-        self.growing.len().clamp(1, TARGETS) as u64 * INDICES
+        self.progress.growing().len().clamp(1, TARGETS) as u64 * INDICES
     }
 
     /// Traces all units with the indices up to `samples`; `false` when the observer stopped it.
     pub(super) fn trace_up_to(&mut self, samples: u64, watch: &mut Watch<'_>) -> bool {
-        let row = self.row(self.samples..samples);
+        let row = self.row(self.progress.samples..samples);
         watch.foresee(row.len() * self.paths_of_a_unit());
         if let Some(is_done) = self.trace_by_workers(&row, samples, watch) {
-            (self.samples, self.done) = (samples, 0);
+            self.progress.complete(samples);
             return is_done;
         }
         let most = (ROUND / self.paths_of_a_unit()).max(UNITS);
-        let pieces = watch.pieces(self.done..row.len(), self.paths_of_a_unit());
+        let pieces = watch.pieces(self.progress.done..row.len(), self.paths_of_a_unit());
         for round in pieces.flat_map(|piece| split(piece, most)) {
-            let found: Vec<UnitSums> = round
-                .clone()
-                .into_par_iter()
-                .map(|number| row.unit(number, &self.growing).trace(&self.engine, self.quantum))
-                .collect();
+            let growing = self.progress.growing();
+            let trace = |number| row.unit(number, growing).trace(&self.engine, self.quantum);
+            let found: Vec<UnitSums> = round.clone().into_par_iter().map(trace).collect();
             self.add_units(&row, round.clone(), &found);
-            self.done = round.end;
+            self.progress.done = round.end;
             watch.show(|| Some(self.snapshot(&row)));
             let BlockCounts { photons, paths, rays } = counts(&found);
             let goes_on = watch.tick(photons, paths, rays);
@@ -97,46 +95,47 @@ impl<S: Spectrum> BidirectionalEstimator<'_, S> {
                 return false;
             }
         }
-        (self.samples, self.done) = (samples, 0);
+        self.progress.complete(samples);
         true
     }
 
-    /// What the sensors show after [`Self::done`] units of a row: all replicates of a target
+    /// What the sensors show after the units so far of a row: all replicates of a target
     /// together, over all indices that they have.
     fn snapshot(&self, row: &Row) -> Snapshot {
+        let progress = &self.progress;
         let value_lx = |target: usize| {
-            let indices = match self.growing.binary_search(&target) {
-                Ok(rank) => row.indices_of((rank / TARGETS) as u64, self.done),
-                Err(_) => self.samples_of(target) * row.replicates,
+            let indices = match progress.growing().binary_search(&target) {
+                Ok(rank) => row.indices_of((rank / TARGETS) as u64, progress.done),
+                Err(_) => progress.samples_of(target) * row.replicates,
             };
-            self.all_lx(target, indices - self.first * row.replicates)
+            self.all_lx(target, indices - progress.first * row.replicates)
         };
-        snapshot(self.scene, (0..self.ends.len()).map(value_lx))
+        snapshot(self.scene, (0..progress.targets()).map(value_lx))
     }
 
     fn add_units(&mut self, row: &Row, numbers: Range<u64>, found: &[UnitSums]) {
-        let growing = std::mem::take(&mut self.growing);
         for (number, found) in numbers.zip(found) {
-            let Unit { replicate, targets, .. } = row.unit(number, &growing);
-            self.add(replicate, targets, found);
+            let Unit { replicate, targets, .. } = row.unit(number, self.progress.growing());
+            let replicates = self.replicates as usize;
+            for (target, sums) in targets.iter().zip(&found.sums) {
+                self.sums[target * replicates + replicate as usize] += sums;
+            }
+            self.costs.add(found);
         }
-        self.growing = growing;
     }
 
     /// Has workers trace the units of a row, up to the checkpoint `coming`; `None` where there are
     /// no workers, `false` when the run was stopped.
     fn trace_by_workers(&mut self, row: &Row, coming: u64, watch: &mut Watch<'_>) -> Option<bool> {
-        let (samples, ends) = (self.samples, self.ends.clone());
-        let progress = PathProgress { samples, coming, ends };
-        let frame = || BlockFrame::Bidirectional { progress };
-        let sums = self.growing.len().min(TARGETS) as u64;
+        let frame = || BlockFrame::Bidirectional { progress: self.progress.frame(coming) };
+        let sums = self.progress.growing().len().min(TARGETS) as u64;
         let size = BlockSize { paths: self.paths_of_a_unit() * PLAIN_PATHS, sums };
-        let blocks = watch.blocks(frame, self.done..row.len(), size)?;
+        let blocks = watch.blocks(frame, self.progress.done..row.len(), size)?;
         Some(watch.distribute(&blocks, &mut |from| {
             let (first, found): (u64, Vec<UnitSums>) = (from.value()?, from.value()?);
             let numbers = first..first.saturating_add(found.len() as u64);
             let fits = |(number, found): (u64, &UnitSums)| {
-                row.unit(number, &self.growing).targets.len() == found.sums.len()
+                row.unit(number, self.progress.growing()).targets.len() == found.sums.len()
             };
             if numbers.end > row.len() || !numbers.clone().zip(&found).all(fits) {
                 return Err(StateError::Unfit("the sums of a block"));
@@ -155,17 +154,13 @@ impl<S: Spectrum> BidirectionalEstimator<'_, S> {
         let BlockFrame::Bidirectional { progress } = frame else {
             return Err(StateError::Unfit("the kind of a block"));
         };
-        let PathProgress { samples, coming, ends } = progress;
-        if ends.len() != self.ends.len() || samples >= coming {
-            return Err(StateError::Unfit("the progress of the run"));
-        }
-        self.ends.clone_from(ends);
-        self.keep_to_ends();
-        let row = self.row(*samples..*coming);
+        self.progress.follow(progress)?;
+        let row = self.row(progress.samples..progress.coming);
         if block.is_empty() || block.end > row.len() {
             return Err(StateError::Unfit("the range of a block"));
         }
-        let trace = |number| row.unit(number, &self.growing).trace(&self.engine, self.quantum);
+        let growing = self.progress.growing();
+        let trace = |number| row.unit(number, growing).trace(&self.engine, self.quantum);
         let found: Vec<UnitSums> = block.clone().into_par_iter().map(trace).collect();
         let mut out = Writer::default();
         out.value(&block.start);
@@ -175,9 +170,7 @@ impl<S: Spectrum> BidirectionalEstimator<'_, S> {
 
     /// Everything, at any time between two rounds.
     pub(super) fn put_all(&self, out: &mut Writer) {
-        out.value(&self.samples);
-        out.value(&self.done);
-        out.value(&self.ends);
+        self.progress.put(out);
         self.put_own(out);
     }
 
@@ -187,16 +180,8 @@ impl<S: Spectrum> BidirectionalEstimator<'_, S> {
         coming: u64,
         from: &mut Reader<'_>,
     ) -> Result<(), StateError> {
-        self.samples = from.value()?;
-        self.done = from.value()?;
-        let ends: Vec<Option<u64>> = from.value()?;
-        let are_past = ends.iter().flatten().all(|end| *end <= self.samples);
-        if ends.len() != self.ends.len() || !are_past || self.samples > coming {
-            return Err(StateError::Unfit("the ends of targets"));
-        }
-        self.ends = ends;
-        self.keep_to_ends();
-        if self.done > self.row(self.samples..coming).len() {
+        self.progress.read(coming, from)?;
+        if self.progress.done > self.row(self.progress.samples..coming).len() {
             return Err(StateError::Unfit("the number of samples"));
         }
         self.take_in_own(from)

@@ -22,25 +22,26 @@ impl<S: Spectrum> PathEstimator<'_, S> {
     /// observer stopped it, as below.
     pub(super) fn serve(&mut self, samples: u64, watch: &mut Watch<'_>) -> bool {
         let replicates = u64::from(self.replicates);
-        for piece in watch.pieces(self.end.photons(samples).unwrap_or(0..0), replicates) {
-            let mut end = std::mem::replace(&mut self.end, PathEnd::Nothing);
+        for piece in watch.pieces(self.shared.end.photons(samples).unwrap_or(0..0), replicates) {
+            let mut end = std::mem::replace(&mut self.shared.end, PathEnd::Nothing);
             let before = self.before();
             let look = |maps: &GrowingMaps<'_, S>| Some(before.snapshot(maps));
             let grown = end.grow(self.context, piece.end, look, watch);
             let before_lx = before.into_lx();
-            self.end = end;
+            self.shared.end = end;
             let Some(photons) = grown else { return false };
-            self.last_lx = before_lx;
-            self.shared.photons += photons;
+            self.shared.last_lx = before_lx;
+            self.costs.shared.photons += photons;
             if !watch.keep(|out| self.put_all(out)) {
                 return false;
             }
         }
-        let photons = self.caustics.as_ref().map_or(0..0, |h| h.photons()..h.photons_for(samples));
+        let caustics = self.shared.caustics.as_ref();
+        let photons = caustics.map_or(0..0, |it| it.photons()..it.photons_for(samples));
         for piece in watch.pieces(photons, replicates) {
-            let Some(caustics) = &mut self.caustics else { break };
+            let Some(caustics) = &mut self.shared.caustics else { break };
             let Some(rays) = caustics.grow(self.context, piece.end, watch) else { return false };
-            self.shared.work.rays += rays;
+            self.costs.shared.work.rays += rays;
             if !watch.keep(|out| self.put_all(out)) {
                 return false;
             }
@@ -52,24 +53,24 @@ impl<S: Spectrum> PathEstimator<'_, S> {
     pub(super) fn gather(&mut self, samples: u64, watch: &mut Watch<'_>) -> bool {
         let indices = self.next_indices(samples);
         if let Some(is_done) = self.gather_by_workers(&indices, samples, watch) {
-            (self.samples, self.done) = (samples, 0);
+            self.progress.complete(samples);
             return is_done;
         }
         let each = (indices.end - indices.start) * u64::from(self.replicates);
-        let paths = each * self.growing.len() as u64;
-        for round in watch.rounds(self.done..paths, ROUND) {
+        let paths = each * self.progress.growing().len() as u64;
+        for round in watch.rounds(self.progress.done..paths, ROUND) {
             let found = self.trace_round(&round, &indices);
             let of_round = self.add(found);
             let (now, rays) = (of_round.paths, of_round.rays);
-            self.contribution.work += of_round;
-            self.done = round.end;
-            watch.show(|| Some(self.snapshot(&indices, self.done)));
+            self.costs.paths.work += of_round;
+            self.progress.done = round.end;
+            watch.show(|| Some(self.snapshot(&indices, self.progress.done)));
             let goes_on = watch.tick(0, now, rays);
             if !goes_on || !watch.keep(|out| self.put_all(out)) {
                 return false;
             }
         }
-        (self.samples, self.done) = (samples, 0);
+        self.progress.complete(samples);
         true
     }
 
@@ -85,17 +86,17 @@ impl<S: Spectrum> PathEstimator<'_, S> {
 
     /// The indices of the paths to trace: all of them where maps have grown, whose values changed.
     fn next_indices(&mut self, samples: u64) -> Range<u64> {
-        if self.end.photons(samples).is_none() {
-            return self.samples..samples;
+        if self.shared.end.photons(samples).is_none() {
+            return self.progress.samples..samples;
         }
-        if self.done == 0 {
+        if self.progress.done == 0 {
             let replicates = self.replicates as usize;
-            for target in &self.growing {
+            for target in self.progress.growing() {
                 self.sums[target * replicates..][..replicates].fill(PathSums::default());
                 self.scores[*target] = Scores::default();
             }
         }
-        self.first..samples
+        self.progress.first..samples
     }
 
     /// Adds the sums of pieces and returns their work.

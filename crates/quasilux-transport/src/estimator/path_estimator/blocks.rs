@@ -1,9 +1,10 @@
 //! Blocks of the path estimator's work: asked of workers, and traced for others.
 
-use super::PathEstimator;
 use super::advance::ROUND;
+use super::{PathEstimator, SharedLight};
 use crate::codec::{Reader, StateError, Writer};
 use crate::estimator::block::{BlockFrame, PathProgress};
+use crate::estimator::progress::TargetProgress;
 use crate::path::sections::{PathSums, Piece, WorkCounts};
 use crate::spectrum::Spectrum;
 use crate::stats::scores::Scores;
@@ -12,10 +13,6 @@ use crate::stats::workers::BlockSize;
 use std::ops::Range;
 
 impl<S: Spectrum> PathEstimator<'_, S> {
-    fn progress(&self, coming: u64) -> PathProgress {
-        PathProgress { samples: self.samples, coming, ends: self.ends.clone() }
-    }
-
     /// Has workers trace the paths `indices` of all growing targets and replicates, up to the
     /// checkpoint `coming`; `None` where there are no workers, `false` when the run was stopped.
     pub(super) fn gather_by_workers(
@@ -24,16 +21,16 @@ impl<S: Spectrum> PathEstimator<'_, S> {
         coming: u64,
         watch: &mut Watch<'_>,
     ) -> Option<bool> {
-        let pairs = self.growing.len() as u64 * u64::from(self.replicates);
+        let pairs = self.progress.growing().len() as u64 * u64::from(self.replicates);
         let paths = (indices.end - indices.start) * pairs;
-        let frame = || BlockFrame::Paths { progress: self.progress(coming) };
+        let frame = || BlockFrame::Paths { progress: self.progress.frame(coming) };
         let size = BlockSize { paths: 1, sums: 0 };
-        let blocks = watch.blocks(frame, self.done..paths, size)?;
+        let blocks = watch.blocks(frame, self.progress.done..paths, size)?;
         Some(watch.distribute(&blocks, &mut |from| {
             let piece = Piece::read(from, pairs as usize)?;
             let work = self.add(vec![piece]);
             let counts = BlockCounts { photons: 0, paths: work.paths, rays: work.rays };
-            self.contribution.work += work;
+            self.costs.paths.work += work;
             Ok(counts)
         }))
     }
@@ -53,32 +50,29 @@ impl<S: Spectrum> PathEstimator<'_, S> {
 
     /// Goes to where another process is.
     fn follow(&mut self, progress: &PathProgress) -> Result<(), StateError> {
-        let PathProgress { samples, coming, ends } = progress;
-        let targets = self.targets.len();
+        self.progress.check(progress)?;
+        let coming = progress.coming;
+        let SharedLight { end, caustics, traced_for, .. } = &self.shared;
+        let is_behind = *traced_for < coming;
         // Maps that have grown do not shrink.
-        let has_maps = self.end.photons(*coming).is_some() || self.caustics.is_some();
-        let is_behind = (self.map_samples <= *coming || !has_maps) && samples < coming;
-        if ends.len() != targets || !is_behind {
-            return Err(StateError::Unfit("the progress of the run"));
-        }
+        let has_maps = end.photons(coming).is_some() || caustics.is_some();
+        let is_past = has_maps && *traced_for > coming;
         let mut nobody = ();
-        let watch = &mut Watch::new(&mut nobody);
-        if self.map_samples < *coming && !self.serve(*coming, watch) {
+        if is_past || (is_behind && !self.serve(coming, &mut Watch::new(&mut nobody))) {
             return Err(StateError::Unfit("the progress of the run"));
         }
-        self.map_samples = *coming;
-        self.samples = *samples;
-        if self.ends != *ends {
-            self.ends.clone_from(ends);
-            self.keep_to_ends();
+        self.shared.traced_for = coming;
+        if self.progress.follow(progress)? {
+            self.freeze_caustics();
         }
         Ok(())
     }
 
     fn gather_block(&self, block: &Range<u64>, coming: u64) -> Result<Vec<u8>, StateError> {
-        let from = if self.end.photons(coming).is_some() { self.first } else { self.samples };
+        let TargetProgress { first, samples, .. } = self.progress;
+        let from = if self.shared.end.photons(coming).is_some() { first } else { samples };
         let indices = from..coming;
-        let pairs = self.growing.len() as u64 * u64::from(self.replicates);
+        let pairs = self.progress.growing().len() as u64 * u64::from(self.replicates);
         let each = indices.end - indices.start;
         let is_within = each.checked_mul(pairs).is_some_and(|paths| block.end <= paths);
         if block.is_empty() || !is_within {

@@ -6,14 +6,15 @@ use crate::spectrum::Spectrum;
 impl<S: Spectrum> PathEstimator<'_, S> {
     /// Photons and paths from here to so many indices.
     pub(super) fn work_up_to(&self, samples: u64) -> u64 {
-        let paths = (self.growing.len() as u64).saturating_mul(u64::from(self.replicates));
-        let photons = self.end.photons_of_an_index(self.replicates);
+        let paths =
+            (self.progress.growing().len() as u64).saturating_mul(u64::from(self.replicates));
+        let photons = self.shared.end.photons_of_an_index(self.replicates);
         let each = paths.saturating_add(photons);
-        each.saturating_mul(samples.saturating_sub(self.samples))
+        each.saturating_mul(samples.saturating_sub(self.progress.samples))
     }
 
     /// Paths of a target, of all replicates.
     pub(crate) fn paths_of(&self, target: usize) -> u64 {
-        self.samples_of(target) * u64::from(self.replicates)
+        self.progress.samples_of(target) * u64::from(self.replicates)
     }
 }

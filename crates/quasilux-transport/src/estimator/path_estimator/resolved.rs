@@ -36,7 +36,7 @@ impl<S: Spectrum> PathEstimator<'_, S> {
         let standard_error_lx = Interval::of_mean(values, Some(1.0)).half_width;
         let standard_error = standard_error_lx.unwrap_or_default() / self.quantum.reference();
         let scores = self.scores.get(target);
-        self.samples_of(target) >= MIN_SAMPLES
+        self.progress.samples_of(target) >= MIN_SAMPLES
             && scores.is_some_and(|it| it.hide_their_tail(self.paths_of(target), standard_error))
     }
 

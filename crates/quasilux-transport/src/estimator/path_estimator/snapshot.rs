@@ -30,7 +30,7 @@ pub(super) struct Before<'g, 'a, S> {
 impl<'a, S: Spectrum> PathEstimator<'a, S> {
     /// What the targets show at the last checkpoint.
     pub(super) fn before(&self) -> Before<'_, 'a, S> {
-        let paths = |target: usize| self.samples_of(target) * u64::from(self.replicates);
+        let paths = |target: usize| self.paths_of(target);
         let targets = 0..self.targets.len();
         let moments = targets.map(|target| self.moment(target, paths(target))).collect();
         Before { gathering: self, moments }
@@ -42,14 +42,14 @@ impl<'a, S: Spectrum> PathEstimator<'a, S> {
         let replicates = u64::from(self.replicates);
         let each = (indices.end - indices.start) * replicates;
         let value_lx = |target: usize| {
-            let paths = match self.growing.binary_search(&target) {
+            let paths = match self.progress.growing().binary_search(&target) {
                 Ok(rank) => {
                     let own = done.saturating_sub(rank as u64 * each).min(each);
                     indices.start * replicates + own
                 }
-                Err(_) => self.samples_of(target) * replicates,
+                Err(_) => self.paths_of(target),
             };
-            self.moment(target, paths).all_lx.or(self.last_lx[target])
+            self.moment(target, paths).all_lx.or(self.shared.last_lx[target])
         };
         snapshot(self.scene, (0..self.targets.len()).map(value_lx))
     }
@@ -61,10 +61,10 @@ impl<'a, S: Spectrum> PathEstimator<'a, S> {
         let sum_lx = |sum: fn(&PathSums) -> Sum| -> f64 {
             own.iter().map(|sums| self.quantum.value(sum(sums))).sum()
         };
-        let caustic_lx = self.caustics.as_ref().map_or(0.0, |caustics| {
+        let caustic_lx = self.shared.caustics.as_ref().map_or(0.0, |caustics| {
             (0..replicates).map(|r| caustics.target_lx(r, target)).sum::<f64>() / replicates as f64
         });
-        let computed_lx = self.exact[target].sum_lx() + caustic_lx;
+        let computed_lx = self.computed.of_targets[target].sum_lx() + caustic_lx;
         if paths == 0 {
             let is_all_computed = !self.samples_direct[target];
             return Moment { straight_lx: is_all_computed.then_some(computed_lx), all_lx: None };
