@@ -2,7 +2,7 @@
 
 use crate::context::{Context, Stream};
 use crate::path::daylight::{DaylightSearch, FromOutside};
-use crate::path::start::{Measurement, Start};
+use crate::path::start::{Measurement, PathMaps, Start};
 use crate::path::wave::{PathWave, WAVE};
 use crate::purpose::Purpose;
 use crate::spectrum::Spectrum;
@@ -43,8 +43,7 @@ pub(crate) fn trace<S: Spectrum>(
         Start {
             from: context.world.ray_origin_of_sensor(position, n),
             measurement: Measurement::Illuminance { n, tests_pointlikes: false },
-            map_end: None,
-            caustics: None,
+            maps: PathMaps { end: None, caustics: None },
             daylight: Some(search),
             sampler,
         }

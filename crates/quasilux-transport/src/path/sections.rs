@@ -5,7 +5,7 @@ use crate::codec::{Sums, add_count, histogram};
 use crate::context::Context;
 use crate::path::contribution::PathContribution;
 use crate::path::end::MapEnd;
-use crate::path::start::{Measurement, Start};
+use crate::path::start::{Measurement, PathMaps, Start};
 use crate::path::trace::PathResult;
 use crate::path::wave::PathWave;
 use crate::photon::caustics::CausticLookup;
@@ -113,8 +113,7 @@ impl<S: Spectrum> Section<'_, S> {
             Start {
                 from,
                 measurement,
-                map_end: self.map_end.as_ref(),
-                caustics: self.caustics,
+                maps: PathMaps { end: self.map_end.as_ref(), caustics: self.caustics },
                 daylight: None,
                 sampler,
             }

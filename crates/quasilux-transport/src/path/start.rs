@@ -13,13 +13,18 @@ use quasilux_sampling::Sampler;
 pub(crate) struct Start<'p, S> {
     pub(crate) from: RayOrigin,
     pub(crate) measurement: Measurement,
-    /// The map that it may end on.
-    pub(crate) map_end: Option<&'p MapEnd<'p, S>>,
-    /// Light that it cannot find by itself.
-    pub(crate) caustics: Option<CausticLookup<'p, S>>,
+    pub(crate) maps: PathMaps<'p, S>,
     /// Where what comes from outside is kept apart, how.
     pub(crate) daylight: Option<DaylightSearch<'p>>,
     pub(crate) sampler: Sampler<'p>,
+}
+
+/// Maps of photons that a path takes light from.
+pub(crate) struct PathMaps<'p, S> {
+    /// The map that it may end on.
+    pub(crate) end: Option<&'p MapEnd<'p, S>>,
+    /// Light that it cannot find by itself.
+    pub(crate) caustics: Option<CausticLookup<'p, S>>,
 }
 
 /// What a path is to find.

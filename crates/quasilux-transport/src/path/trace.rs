@@ -21,11 +21,9 @@ use crate::lights::images::ImageSamples;
 use crate::lights::{Asking, ChoiceWork, SunChoice};
 use crate::path::contribution::PathContribution;
 use crate::path::daylight::Daylight;
-use crate::path::end::MapEnd;
 use crate::path::russian_roulette::{CERTAIN_BOUNCES, russian_roulette_factor};
-use crate::path::start::{Measurement, Start};
+use crate::path::start::{Measurement, PathMaps, Start};
 use crate::path::subpath_weights::product;
-use crate::photon::caustics::CausticLookup;
 use crate::purpose::Purpose;
 use crate::spectrum::Spectrum;
 use crate::world::vertex::{Surface, Vertex};
@@ -48,32 +46,46 @@ pub(crate) struct PathResult<S> {
 pub(crate) struct Path<'p, S> {
     /// Its number among those that travel together.
     number: u32,
-    map_end: Option<&'p MapEnd<'p, S>>,
-    caustics: Option<CausticLookup<'p, S>>,
     sampler: Sampler<'p>,
+    maps: PathMaps<'p, S>,
+    /// Where what comes from outside is kept apart.
+    daylight: Option<Daylight<'p>>,
     from: RayOrigin,
     /// Unit direction in which it goes on.
     direction: DVec3,
-    /// Density in sr^-1 of the direction as its vertex scatters; `None` where no other could be.
-    pdf_sr: Option<f64>,
-    /// Where it last asked for the light of area lights.
-    asked_from: Option<Asking>,
-    /// The mirrors or panes since then, where its last vertex asked for area lights behind them.
-    specular_way: Option<SpecularWay>,
-    /// Where and how it last asked for light from outside, if it left along a direction that could
-    /// have been asked along.
-    asked_outside: Option<AskedOutside>,
-    /// Where what comes from outside is kept apart.
-    daylight: Option<Daylight<'p>>,
-    /// Factors from radiance along the path to what its start seeks.
-    beta: S,
-    /// The same for what the next surface emits itself.
-    beta_emitted: S,
-    /// The same for light from outside.
-    beta_outside: OutsideFactors<S>,
-    /// Bounces behind the light that its last vertex asks for.
-    bounces_asked: u32,
+    last: LastVertex,
+    beta: Throughput<S>,
     gain: Gain,
+    light: PathLight<S>,
+}
+
+/// The vertex that a path left last, as weights of what it runs into need it.
+#[derive(Default)]
+struct LastVertex {
+    /// Density in sr^-1 of the direction as it scatters; `None` where no other could be.
+    pdf_sr: Option<f64>,
+    /// Where the path last asked for the light of area lights.
+    asked_from: Option<Asking>,
+    /// The mirrors or panes since then, where it asked for area lights behind them.
+    specular_way: Option<SpecularWay>,
+    /// Where and how it last asked for light from outside, if the path left along a direction that
+    /// could have been asked along.
+    asked_outside: Option<AskedOutside>,
+    /// Bounces behind the light that it asks for.
+    bounces_asked: u32,
+}
+
+/// Factors from radiance along a path to what its start seeks.
+struct Throughput<S> {
+    /// For light that the next surface reflects.
+    all: S,
+    /// For what it emits itself.
+    emitted: S,
+    outside: OutsideFactors<S>,
+}
+
+/// Light of a path.
+struct PathLight<S> {
     /// From lights that its last vertex turned out to see.
     arrived: S,
     /// From the point-like lights at its start.
@@ -122,7 +134,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
         start: Start<'p, S>,
         work: &mut PathWork<S>,
     ) -> Self {
-        let Start { from, measurement, map_end, caustics, daylight, mut sampler } = start;
+        let Start { from, measurement, maps, daylight, mut sampler } = start;
         let (direction, pdf_sr, beta) = match measurement {
             Measurement::Illuminance { n, .. } => {
                 let u = context.draw(&mut sampler, Purpose::FirstDirection, Sampler::next_2d);
@@ -133,24 +145,23 @@ impl<'p, S: Spectrum> Path<'p, S> {
         };
         let mut path = Self {
             number,
-            map_end,
-            caustics,
             sampler,
+            maps,
+            daylight: daylight.map(Daylight::new),
             from,
             direction,
-            pdf_sr,
-            asked_from: None,
-            specular_way: None,
-            asked_outside: None,
-            daylight: daylight.map(Daylight::new),
-            beta,
-            beta_emitted: beta,
-            beta_outside: OutsideFactors { here: beta, past_panes: beta },
-            bounces_asked: 0,
+            last: LastVertex { pdf_sr, ..LastVertex::default() },
+            beta: Throughput {
+                all: beta,
+                emitted: beta,
+                outside: OutsideFactors { here: beta, past_panes: beta },
+            },
             gain: Gain::NONE,
-            arrived: S::black(),
-            pointlikes: S::black(),
-            found: PathContribution::default(),
+            light: PathLight {
+                arrived: S::black(),
+                pointlikes: S::black(),
+                found: PathContribution::default(),
+            },
         };
         if let Measurement::Illuminance { n, tests_pointlikes } = measurement {
             path.sample_direct_at_start(context, n, tests_pointlikes, work);
@@ -166,7 +177,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
         tests_pointlikes: bool,
         work: &mut PathWork<S>,
     ) {
-        self.found.list_terms(context.listed_terms);
+        self.light.found.list_terms(context.listed_terms);
         let vertex = Vertex::sensor(self.from, n);
         work.shadows.max_bounces = context.max_bounces.unwrap_or(u32::MAX);
         if tests_pointlikes {
@@ -176,11 +187,11 @@ impl<'p, S: Spectrum> Path<'p, S> {
         self.sample_direct_emitter_images(context, &vertex, work);
         self.sample_direct_area_luminaires(context, &vertex, work);
         self.sample_direct_outside(context, &vertex, work);
-        self.asked_outside =
-            self.pdf_sr.and_then(|pdf_sr| AskedOutside::new(context, &vertex, pdf_sr));
+        self.last.asked_outside =
+            self.last.pdf_sr.and_then(|pdf_sr| AskedOutside::new(context, &vertex, pdf_sr));
         let pdf_sr = vertex.pdf_sr(self.direction);
-        self.pdf_sr = Some(pdf_sr);
-        self.specular_way = self.specular_way(context, pdf_sr);
+        self.last.pdf_sr = Some(pdf_sr);
+        self.last.specular_way = self.specular_way(context, pdf_sr);
     }
 
     /// The ray along which it goes on.
@@ -192,7 +203,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
     pub(crate) fn hear(&mut self, answer: &Answer<S>) {
         if let Some(daylight) = &mut self.daylight {
             let light = answer.bounces.map(|_| answer.light.luminance());
-            self.found.from_outside.extend(daylight.answered(light));
+            self.light.found.from_outside.extend(daylight.answered(light));
         } else if let Some(bounces) = answer.bounces {
             self.receive(answer.light, bounces);
         }
@@ -201,18 +212,18 @@ impl<'p, S: Spectrum> Path<'p, S> {
     /// Light that the path asked for has arrived where it asked, after this many mirrors and panes.
     fn receive(&mut self, light: S, bounces: u32) {
         if bounces == 0 {
-            self.arrived += light;
+            self.light.arrived += light;
         } else {
-            self.found.add(self.bounces_asked + bounces, light);
+            self.light.found.add(self.last.bounces_asked + bounces, light);
         }
     }
 
     /// Light of a point-like light has arrived at its start, through this many panes.
     pub(crate) fn receive_at_start(&mut self, light: S, panes: u32) {
         if panes == 0 {
-            self.pointlikes += light;
+            self.light.pointlikes += light;
         } else {
-            self.found.add(panes, light);
+            self.light.found.add(panes, light);
         }
     }
 
@@ -271,8 +282,8 @@ impl<'p, S: Spectrum> Path<'p, S> {
     ) {
         let bsdf = surface.bsdf;
         // Past mirrors alone, paths find nothing but facets that emit and what is outside.
-        self.found.reflected |= !bsdf.is_specular() || context.lights.can_be_met();
-        self.bounces_asked = bounces + 1;
+        self.light.found.reflected |= !bsdf.is_specular() || context.lights.can_be_met();
+        self.last.bounces_asked = bounces + 1;
         if !bsdf.is_specular() {
             self.sample_direct_all(context, bounces + 1, at, surface, work);
         }
@@ -302,40 +313,40 @@ impl<'p, S: Spectrum> Path<'p, S> {
         self.from =
             if next.wi.z > 0.0 { world.ray_origin(at) } else { world.ray_origin_behind(at) };
         self.direction = frame.to_world(next.wi);
-        self.pdf_sr = next.pdf_sr;
-        let beta = self.beta * next.weight;
+        self.last.pdf_sr = next.pdf_sr;
+        let beta = self.beta.all * next.weight;
         let is_straight = next.wi.z < 0.0 && is_pane(bsdf);
-        self.beta_outside = self.beta_outside.after(beta, next.weight, onward, is_straight);
-        self.beta = beta * onward.everything;
-        self.beta_emitted = beta * onward.emitted;
+        self.beta.outside = self.beta.outside.after(beta, next.weight, onward, is_straight);
+        self.beta.all = beta * onward.everything;
+        self.beta.emitted = beta * onward.emitted;
         true
     }
 
     /// What it found, once. All that it asked for must have arrived.
     pub(crate) fn end(&mut self) -> PathResult<S> {
         self.add_arrived();
-        self.found.add(0, self.pointlikes);
-        PathResult { found: std::mem::take(&mut self.found), dimensions: self.sampler.used() }
+        self.light.found.add(0, self.light.pointlikes);
+        PathResult { found: std::mem::take(&mut self.light.found), dimensions: self.sampler.used() }
     }
 
     /// Gives it up on its way.
     pub(crate) fn cut(&mut self) {
-        self.found.endless = true;
+        self.light.found.endless = true;
     }
 
     /// What a lux at a diffuse surface that it meets counts at its start.
     fn weight(&self, context: &Context<'_, S>, at: &Interaction) -> S {
         let surface = Surface::new(&context.world, at, self.direction);
-        Vertex::on(&context.world, at, &surface, self.beta).weight(at.n)
+        Vertex::on(&context.world, at, &surface, self.beta.all).weight(at.n)
     }
 
     /// Adds the light at a surface that no path finds.
     fn add_caustics(&mut self, context: &Context<'_, S>, bounces: u32, at: &Interaction) {
-        let Some(caustics) = self.caustics else { return };
+        let Some(caustics) = self.maps.caustics else { return };
         let most = context.max_bounces.map_or(u32::MAX, |most| most - bounces - 1);
         let to_start = self.weight(context, at);
         for term in caustics.illuminances_lx(at, most) {
-            self.found.add(bounces + 1 + term.bounces, to_start * term.illuminance_lx);
+            self.light.found.add(bounces + 1 + term.bounces, to_start * term.illuminance_lx);
         }
     }
 
@@ -353,7 +364,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
 
     /// Adds what the last vertex was waiting for.
     fn add_arrived(&mut self) {
-        self.found.add(self.bounces_asked, std::mem::take(&mut self.arrived));
+        self.light.found.add(self.last.bounces_asked, std::mem::take(&mut self.light.arrived));
     }
 
     /// Adds the light that the place where the ray ends emits itself.
@@ -364,7 +375,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
             return;
         };
         let cos = at.n.dot(self.direction).abs();
-        let asked = match self.pdf_sr {
+        let asked = match self.last.pdf_sr {
             Some(pdf_sr) => Some(Asked {
                 pdf_m2: self.asked_m2(context, emitters, at),
                 inverse_of_direction_m2: at.distance_m * at.distance_m / (cos * pdf_sr),
@@ -374,6 +385,6 @@ impl<'p, S: Spectrum> Path<'p, S> {
         let Asked { pdf_m2, inverse_of_direction_m2 } = asked.unwrap_or_default();
         let ratio = product(pdf_m2, inverse_of_direction_m2);
         let weight = 1.0 / (1.0 + ratio * ratio);
-        self.found.add(bounces, self.beta_emitted * (emitted_cd_m2 * weight));
+        self.light.found.add(bounces, self.beta.emitted * (emitted_cd_m2 * weight));
     }
 }

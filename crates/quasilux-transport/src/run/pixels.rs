@@ -14,7 +14,7 @@ use crate::estimator::bidirectional::{PictureLight, PixelSink, PixelTracer, Pixe
 use crate::path::contribution::PathContribution;
 use crate::path::pixel_rays::PixelRays;
 use crate::path::sections::WorkCounts;
-use crate::path::start::{Measurement, Start};
+use crate::path::start::{Measurement, PathMaps, Start};
 use crate::path::wave::{PathWave, WAVE};
 use crate::photon::caustics::CausticMap;
 use crate::run::pass::{KnownBlock, Pass, square_of};
@@ -416,10 +416,12 @@ impl<'a, S: Spectrum> Darkroom<'a, S> {
         let all = rays.through(&context.world, places, &points, indices);
         for together in all.chunks(WAVE as usize) {
             let starts = together.iter().map(|ray| Start {
-                caustics: caustics.and_then(|caustics| caustics.map(sink.replicate)),
                 from: ray.from,
                 measurement: Measurement::Luminance { direction: ray.direction },
-                map_end: None,
+                maps: PathMaps {
+                    end: None,
+                    caustics: caustics.and_then(|caustics| caustics.map(sink.replicate)),
+                },
                 daylight: None,
                 sampler: ray.sampler.clone(),
             });

@@ -180,6 +180,27 @@ impl<'a, S: Spectrum> BidirectionalEstimator<'a, S> {
         (0..=listed).map(term).collect()
     }
 
+    /// Eye paths of a target in all replicates.
+    fn trials(&self, target: usize) -> f64 {
+        self.progress.samples_of(target) as f64 * f64::from(self.replicates)
+    }
+
+    /// What is known at points of light that no sample met.
+    fn unseen(&self) -> UnseenLight {
+        let trials = |target| self.trials(target);
+        let exact_lx = || self.computed.of_targets.iter().map(Exact::sum_lx).collect();
+        let samples = self.samples_of_index.as_ref();
+        UnseenLight {
+            average_lx: 0.0,
+            point_lx: self.caps.unseen_lx(trials),
+            merged_lx: self.mean_of(|sums| sums.merged),
+            disc_radius_m: self.engine.receivers.iter().map(|it| it.radius_m).collect(),
+            totals: self
+                .is_certified
+                .then(|| index_totals(&self.engine, samples, exact_lx(), trials)),
+        }
+    }
+
     fn context(&self) -> &'a Context<'a, S> {
         self.engine.context
     }
@@ -193,8 +214,6 @@ impl<S: Spectrum> Estimator for BidirectionalEstimator<'_, S> {
     fn estimates(&self) -> Estimates {
         let progress = &self.progress;
         let (targets, exact) = (progress.targets(), &self.computed.of_targets);
-        let trials = |target| progress.samples_of(target) as f64 * f64::from(self.replicates);
-        let unseen_lx = self.caps.unseen_lx(trials);
         let direct_lx = self.mean_of(|sums| sums.direct);
         let exact_lx = exact.iter().map(|exact| exact.direct_lx);
         let all = SensorEstimates {
@@ -204,20 +223,7 @@ impl<S: Spectrum> Estimator for BidirectionalEstimator<'_, S> {
             samples: (0..targets).map(|target| progress.samples_of(target)).collect(),
             average: None,
             terms: self.terms(),
-            unseen: Some(UnseenLight {
-                average_lx: 0.0,
-                point_lx: unseen_lx,
-                merged_lx: self.mean_of(|sums| sums.merged),
-                disc_radius_m: self.engine.receivers.iter().map(|it| it.radius_m).collect(),
-                totals: self.is_certified.then(|| {
-                    index_totals(
-                        &self.engine,
-                        self.samples_of_index.as_ref(),
-                        exact.iter().map(Exact::sum_lx).collect(),
-                        trials,
-                    )
-                }),
-            }),
+            unseen: Some(self.unseen()),
         };
         let mut sensors = by_sensor(self.scene, all);
         let mut first = 0;
@@ -225,7 +231,8 @@ impl<S: Spectrum> Estimator for BidirectionalEstimator<'_, S> {
             let Some(unseen) = &mut sensor.unseen else { continue };
             let own = first..first + unseen.point_lx.len();
             first = own.end;
-            let least_trials = own.map(trials).fold(f64::INFINITY, f64::min);
+            let trials = own.map(|target| self.trials(target));
+            let least_trials = trials.fold(f64::INFINITY, f64::min);
             unseen.average_lx = self.caps.unseen_of_average_lx(&unseen.point_lx, least_trials);
         }
         let (engine, Costs { paths, photons, flux }) = (&self.engine, &self.costs);

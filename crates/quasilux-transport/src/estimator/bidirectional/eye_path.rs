@@ -6,7 +6,7 @@ mod start;
 
 use super::departure::Departure;
 use super::engine::Engine;
-use super::light_subpath::{LightSubpaths, is_narrow};
+use super::light_subpath::{LightVertex, is_narrow};
 use super::mirrored_way::MirroredWay;
 use super::plan::{CONNECTED, FoundBy, JoinEdge, Receiver, favour};
 use crate::bsdf::{Bsdf, BsdfSample, TransportMode};
@@ -41,11 +41,12 @@ pub(super) struct EyePaths<S> {
 
 /// An eye path on its way.
 struct EyePath<'p, S> {
+    /// Its number among those that travel together.
     number: u32,
     section: usize,
     receiver: &'p Receiver,
-    light: &'p LightSubpaths<S>,
-    subpath: usize,
+    /// The light subpath that it is connected to.
+    partner: &'p [LightVertex<S>],
     sampler: Sampler<'p>,
     from: RayOrigin,
     /// Unit direction in which it goes on.
@@ -54,18 +55,29 @@ struct EyePath<'p, S> {
     distance_m: f64,
     /// Factors from radiance along the path to illuminance at its start.
     beta: S,
-    /// Surfaces and panes so far.
-    bounces: u32,
+    gain: Gain,
+    passed: Passed,
+    last: LastVertex<S>,
+}
+
+/// What an eye path has passed.
+struct Passed {
+    /// Surfaces and panes.
+    surfaces: u32,
     /// Those of them that are vertices.
     vertices: u32,
-    gain: Gain,
-    /// Having left its last vertex.
+}
+
+/// The vertex that an eye path left last, as weights need it.
+#[derive(Default)]
+struct LastVertex<S> {
+    /// Having left it.
     weights: EyeWeights,
-    /// Where it last asked for light; `None` since it was mirrored or refracted.
+    /// Where the path asked for light; `None` since it was mirrored or refracted.
     asked_from: Option<Asking>,
-    /// Since it last asked for light: over mirrors alone.
+    /// Since it asked for light: over mirrors alone.
     mirrored: Option<MirroredFrom<S>>,
-    /// Bounces behind the light that it last asked for.
+    /// Bounces behind the light that it asked for.
     bounces_asked: u32,
 }
 
@@ -172,7 +184,7 @@ impl<S: Spectrum> EyePaths<S> {
     ) {
         self.shadows.answer(&engine.context.world, |who: u32, light: S, bounces: u32| {
             let path = &paths[who as usize];
-            found.add(path.section, path.bounces_asked + bounces, light);
+            found.add(path.section, path.last.bounces_asked + bounces, light);
         });
     }
 }
@@ -194,12 +206,12 @@ impl<S: Spectrum> EyePath<'_, S> {
         let surface = &Surface::new(&context.world, at, self.direction);
         let &Surface { bsdf, wo, .. } = surface;
         let distance_m = self.distance_m + at.distance_m;
-        let arrived = self.weights.map(|it| it.arrived(distance_m, wo.z));
+        let arrived = self.last.weights.map(|it| it.arrived(distance_m, wo.z));
         self.add_emitted(engine, at, arrived, found);
-        if context.max_bounces.is_some_and(|most| self.bounces >= most) {
+        if context.max_bounces.is_some_and(|most| self.passed.surfaces >= most) {
             return false;
         }
-        if !engine.grow(&mut self.gain, at, wo, TransportMode::Radiance, self.bounces) {
+        if !engine.grow(&mut self.gain, at, wo, TransportMode::Radiance, self.passed.surfaces) {
             work.work.endless += 1;
             return false;
         }
@@ -231,12 +243,12 @@ impl<S: Spectrum> EyePath<'_, S> {
         };
         let copies = engine.copies.at(at);
         let here = self.beside_light_subpaths(arrived, Some(&edge)).map(|it| it.at_copies(copies));
-        self.vertices += 1;
+        self.passed.vertices += 1;
         let vertex = &Vertex::on(&context.world, at, surface, self.beta);
-        self.bounces_asked = self.bounces + 1;
+        self.last.bounces_asked = self.passed.surfaces + 1;
         work.shadows.max_bounces =
-            context.max_bounces.map_or(u32::MAX, |most| most - self.bounces_asked);
-        let number = self.vertices as usize;
+            context.max_bounces.map_or(u32::MAX, |most| most - self.last.bounces_asked);
+        let number = self.passed.vertices as usize;
         let eye_vertex = &EyeVertex { vertex, weights: here, copies, number };
         self.sample_direct_pointlike(engine, eye_vertex, work);
         self.sample_direct_images(engine, eye_vertex, work);
@@ -248,11 +260,11 @@ impl<S: Spectrum> EyePath<'_, S> {
         let pdfs_sr =
             [bsdf.survival_pdf_sr(wo, next.wi, favour), bsdf.survival_pdf_sr(next.wi, wo, 1.0)];
         let cos = next.wi.z.abs();
-        self.weights =
+        self.last.weights =
             here.map(|it| it.scattered_where_copied(cos, pdfs_sr[0], pdfs_sr[1], copies));
         self.distance_m = 0.0;
-        self.asked_from = Some(Asking::at(vertex));
-        self.mirrored = MirroredFrom::new(context, vertex, pdfs_sr[0]);
+        self.last.asked_from = Some(Asking::at(vertex));
+        self.last.mirrored = MirroredFrom::new(context, vertex, pdfs_sr[0]);
         self.go_on(engine, at, &frame, &next, favour)
     }
 
@@ -267,8 +279,8 @@ impl<S: Spectrum> EyePath<'_, S> {
         let &Surface { bsdf, frame, wo, .. } = surface;
         let next = bsdf.sample(wo, at.front, TransportMode::Radiance, &mut self.sampler);
         let Some(next) = next else { return false };
-        let mirrored = self.mirrored.take().filter(|_| next.wi.z > 0.0);
-        self.mirrored = mirrored.and_then(|from| from.past(engine.context, at, bsdf, wo.z));
+        let mirrored = self.last.mirrored.take().filter(|_| next.wi.z > 0.0);
+        self.last.mirrored = mirrored.and_then(|from| from.past(engine.context, at, bsdf, wo.z));
         let goes_straight = next.wi.z < 0.0 && bsdf.straight_transmittance(1.0).is_some();
         // Survival is by flux: radiance is scaled where it enters glass, and back where it leaves.
         let scale = bsdf.radiance_scale(next.wi, at.front);
@@ -276,10 +288,10 @@ impl<S: Spectrum> EyePath<'_, S> {
             self.distance_m += at.distance_m;
         } else {
             let here = self.beside_light_subpaths(arrived, None);
-            self.weights = here.map(|it| it.mirrored(wo.z.abs(), scale));
+            self.last.weights = here.map(|it| it.mirrored(wo.z.abs(), scale));
             self.distance_m = 0.0;
-            self.vertices += 1;
-            self.asked_from = None;
+            self.passed.vertices += 1;
+            self.last.asked_from = None;
         }
         self.go_on(engine, at, &frame, &next, scale.recip())
     }
@@ -288,7 +300,7 @@ impl<S: Spectrum> EyePath<'_, S> {
     /// photons take part as well, and connected to a part of the others; nothing is joined over a
     /// mirror, which has no edge.
     fn beside_light_subpaths(&self, arrived: EyeWeights, edge: Option<&JoinEdge>) -> EyeWeights {
-        if self.vertices > 0 {
+        if self.passed.vertices > 0 {
             return arrived.map(|it| it.times(CONNECTED, 1.0));
         }
         let joins = edge.map_or(0.0, |edge| self.receiver.joins(edge));
@@ -313,7 +325,7 @@ impl<S: Spectrum> EyePath<'_, S> {
         let Some(Departure { from, direction, factor }) = departure else { return false };
         (self.from, self.direction) = (from, direction);
         self.beta = self.beta * factor;
-        self.bounces += 1;
+        self.passed.surfaces += 1;
         true
     }
 
@@ -331,8 +343,8 @@ impl<S: Spectrum> EyePath<'_, S> {
         let Some(emitters) = emitters else { return };
         let asked = EmitterPlace { facet: at.facet, position: at.position };
         let cos = at.n.dot(self.direction).abs();
-        let mirrored = self.mirrored.as_ref().and_then(|from| from.asked(context, at, cos));
-        let (pdf_m2, arrived) = match (mirrored, self.asked_from) {
+        let mirrored = self.last.mirrored.as_ref().and_then(|from| from.asked(context, at, cos));
+        let (pdf_m2, arrived) = match (mirrored, self.last.asked_from) {
             (Some(Asked { pdf_m2, inverse_m2 }), _) => {
                 (pdf_m2, arrived.map(|it| it.asked(inverse_m2)))
             }
@@ -340,21 +352,21 @@ impl<S: Spectrum> EyePath<'_, S> {
             (None, None) => (0.0, arrived),
         };
         let emission = engine.sources.of_emitters_per_lm() * emitted_cd_m2 * cos;
-        let is_all_mirrors = self.mirrored.as_ref().is_some_and(|from| {
+        let is_all_mirrors = self.last.mirrored.as_ref().is_some_and(|from| {
             let mirrors = from.way.planes.len();
-            mirrors > 0 && mirrors == self.vertices as usize
+            mirrors > 0 && mirrors == self.passed.vertices as usize
         });
         let found_by = if is_all_mirrors { FoundBy::EyePaths } else { engine.emitters_found_by };
         let weights = self.straight(arrived, true).select(found_by);
         let weight = weights.of_hit(pdf_m2, emission);
         let light = self.beta * (emitted_cd_m2 * weight);
         self.receiver.assert_capped("a facet that was met", light);
-        found.add(self.section, self.bounces, light);
+        found.add(self.section, self.passed.surfaces, light);
     }
 
     /// What it weighs where it runs into a light: straight from the start photons take part.
     fn straight(&self, weights: EyeWeights, is_of_area: bool) -> EyeWeights {
-        match self.vertices {
+        match self.passed.vertices {
             0 => {
                 let photons = self.receiver.straight_m2(is_of_area);
                 weights.map(|it| it.times(1.0, photons))
@@ -367,7 +379,7 @@ impl<S: Spectrum> EyePath<'_, S> {
     fn add_outside(&self, engine: &Engine<'_, '_, S>, found: &mut dyn Sink<S>) {
         let Some(outside) = &engine.context.lights.outside else { return };
         let (direction, position) = (self.direction, self.from.position());
-        let weights = self.straight(self.weights, false);
+        let weights = self.straight(self.last.weights, false);
         let share = |asked_sr: f64, of_sun: bool| {
             let found_by = if of_sun { FoundBy::Photons } else { engine.sky_found_by };
             weights
@@ -376,17 +388,18 @@ impl<S: Spectrum> EyePath<'_, S> {
         };
         let sky_cd_m2 = outside.luminance_cd_m2(direction);
         if sky_cd_m2 != 0.0 {
-            let asked_sr = self.asked_from.map_or(0.0, |place| outside.pdf_sr(place, direction));
+            let asked_sr =
+                self.last.asked_from.map_or(0.0, |place| outside.pdf_sr(place, direction));
             let light = self.beta * (sky_cd_m2 * share(asked_sr, false));
             self.receiver.assert_capped("the sky", light);
-            found.add(self.section, self.bounces, light);
+            found.add(self.section, self.passed.surfaces, light);
         }
         let sun_cd_m2 = outside.sun_cd_m2(direction);
         if sun_cd_m2 != 0.0 {
-            let asked_sr = self.asked_from.map_or(0.0, |_| outside.sun_pdf_sr(direction));
+            let asked_sr = self.last.asked_from.map_or(0.0, |_| outside.sun_pdf_sr(direction));
             let light = self.beta * (sun_cd_m2 * share(asked_sr, true));
             self.receiver.assert_capped("the sun", light);
-            found.add(self.section, self.bounces, light);
+            found.add(self.section, self.passed.surfaces, light);
         }
     }
 }

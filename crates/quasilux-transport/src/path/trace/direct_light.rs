@@ -22,7 +22,7 @@ impl<S: Spectrum> Path<'_, S> {
         surface: &Surface<'_, S>,
         work: &mut PathWork<S>,
     ) {
-        let vertex = Vertex::on(&context.world, at, surface, self.beta);
+        let vertex = Vertex::on(&context.world, at, surface, self.beta.all);
         work.shadows.max_bounces = context.max_bounces.map_or(u32::MAX, |most| most - bounces);
         self.sample_direct_area_luminaires(context, &vertex, work);
         self.sample_direct_pointlikes(context, &vertex, work);
@@ -40,7 +40,7 @@ impl<S: Spectrum> Path<'_, S> {
         work: &mut PathWork<S>,
     ) {
         if !context.images.is_empty() {
-            let choice = Purpose::Image { surface: self.bounces_asked };
+            let choice = Purpose::Image { surface: self.last.bounces_asked };
             let u = context.draw(&mut self.sampler, choice, Sampler::next_1d);
             let share = |_: u32, _: DVec3, _: f64| 1.0;
             let query = context.image_query(self.number, vertex);
@@ -57,12 +57,12 @@ impl<S: Spectrum> Path<'_, S> {
         work: &mut PathWork<S>,
     ) {
         if let Some(emitters) = &context.lights.emitters {
-            let place = Purpose::AreaLight { surface: self.bounces_asked };
+            let place = Purpose::AreaLight { surface: self.last.bounces_asked };
             let u = context.draw(&mut self.sampler, place, Sampler::next_2d);
             let beside_sr = Self::beside_emitter_samples(vertex);
             let light_sample =
                 emitters.light_sample(&context.world, vertex, u, beside_sr, &mut work.choice);
-            self.asked_from = Some(Asking::at(vertex));
+            self.last.asked_from = Some(Asking::at(vertex));
             let through_panes = self.asks_for_emitters_through_panes(context);
             let light_sample = light_sample.map(|it| LightSample { through_panes, ..it });
             self.ask(light_sample, vertex, work);
@@ -77,7 +77,7 @@ impl<S: Spectrum> Path<'_, S> {
         at: &Interaction,
     ) -> f64 {
         let asked = EmitterPlace { facet: at.facet, position: at.position };
-        self.asked_from.map_or(0.0, |place| emitters.pdf_m2(&context.world, place, asked))
+        self.last.asked_from.map_or(0.0, |place| emitters.pdf_m2(&context.world, place, asked))
     }
 
     /// The same of the area lights as mirrors show them.
@@ -90,7 +90,7 @@ impl<S: Spectrum> Path<'_, S> {
         if !self.asks_for_emitter_images(context) {
             return;
         }
-        let place = Purpose::AreaLightImage { surface: self.bounces_asked };
+        let place = Purpose::AreaLightImage { surface: self.last.bounces_asked };
         let u = context.draw(&mut self.sampler, place, Sampler::next_2d);
         let beside_sr = Self::beside_emitter_samples(vertex);
         let query = context.image_query(self.number, vertex);
@@ -116,7 +116,7 @@ impl<S: Spectrum> Path<'_, S> {
     ) {
         let lights = &context.lights.area_luminaires;
         if !lights.is_empty() {
-            let place = Purpose::AreaLuminaire { surface: self.bounces_asked };
+            let place = Purpose::AreaLuminaire { surface: self.last.bounces_asked };
             let draw_2d = || context.draw(&mut self.sampler, place, Sampler::next_2d);
             let choice = lights.are_many().then(draw_2d);
             let u = context.draw(&mut self.sampler, place, Sampler::next_2d);
@@ -143,7 +143,7 @@ impl<S: Spectrum> Path<'_, S> {
     ) {
         let lights = &context.lights.pointlikes;
         if !lights.is_empty() {
-            let choice = Purpose::PointLike { surface: self.bounces_asked };
+            let choice = Purpose::PointLike { surface: self.last.bounces_asked };
             let u = match lights.dimensions_of_choice() {
                 0 => [0.0; 2],
                 1 => [context.draw(&mut self.sampler, choice, Sampler::next_1d), 0.0],

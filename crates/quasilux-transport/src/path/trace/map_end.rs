@@ -13,17 +13,17 @@ impl<S: Spectrum> Path<'_, S> {
         bounces: u32,
         at: &Interaction,
     ) -> Option<Onward> {
-        let end = self.map_end.filter(|_| context.world.bsdf(at).keeps_illuminance())?;
+        let end = self.maps.end.filter(|_| context.world.bsdf(at).keeps_illuminance())?;
         if context.max_bounces.is_some() && bounces > 0 {
             // The light on the map has more bounces than are left.
             return None;
         }
         let (place, weight) = (end.layout.locate(at), self.weight(context, at));
-        self.found.indirect += weight * end.map.illuminance_lx(&place);
-        if !self.found.terms.is_empty() {
+        self.light.found.indirect += weight * end.map.illuminance_lx(&place);
+        if !self.light.found.terms.is_empty() {
             for term in end.map.terms_lx(place, u32::MAX) {
                 let bounces = bounces + 1 + term.bounces;
-                self.found.add_to_term(bounces, weight * term.illuminance_lx);
+                self.light.found.add_to_term(bounces, weight * term.illuminance_lx);
             }
         }
         // The direction to a light that the next surface emits is part of the direct light here, so

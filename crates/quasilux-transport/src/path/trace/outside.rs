@@ -117,7 +117,7 @@ impl<S: Spectrum> Path<'_, S> {
         work: &mut PathWork<S>,
     ) {
         let Some(outside) = &context.lights.outside else { return };
-        let surface = self.bounces_asked;
+        let surface = self.last.bounces_asked;
         if outside.is_asked_for() {
             let purpose = Purpose::Opening { surface };
             let u = context.draw(&mut self.sampler, purpose, Sampler::next_2d);
@@ -152,7 +152,7 @@ impl<S: Spectrum> Path<'_, S> {
         if vertex.is_sensor() {
             return;
         }
-        let purpose = Purpose::Sun { surface: self.bounces_asked };
+        let purpose = Purpose::Sun { surface: self.last.bounces_asked };
         let u = context.draw(&mut self.sampler, purpose, Sampler::next_1d);
         let PathWork { shadows, suns, .. } = work;
         daylight.search.suns.samples(outside, vertex, u, suns, |sample| {
@@ -173,12 +173,12 @@ impl<S: Spectrum> Path<'_, S> {
         next: &BsdfSample<S>,
     ) {
         let is_straight = |_: &AskedOutside| is_pane(surface.bsdf) && next.wi.z < 0.0;
-        self.asked_outside = match next.pdf_sr {
+        self.last.asked_outside = match next.pdf_sr {
             Some(pdf_sr) => {
-                let vertex = Vertex::on(&context.world, at, surface, self.beta);
+                let vertex = Vertex::on(&context.world, at, surface, self.beta.all);
                 AskedOutside::new(context, &vertex, pdf_sr)
             }
-            None => self.asked_outside.filter(is_straight),
+            None => self.last.asked_outside.filter(is_straight),
         };
     }
 
@@ -217,7 +217,7 @@ impl<S: Spectrum> Path<'_, S> {
     pub(super) fn add_outside(&mut self, context: &Context<'_, S>, bounces: u32) {
         let Some(outside) = &context.lights.outside else { return };
         let mut found_cd_m2 = outside.luminance_cd_m2(self.direction);
-        match self.asked_outside {
+        match self.last.asked_outside {
             Some(AskedOutside { place, pdf_sr }) => {
                 let ratio = outside.pdf_sr(place, self.direction) / pdf_sr;
                 found_cd_m2 /= 1.0 + ratio * ratio;
@@ -225,22 +225,22 @@ impl<S: Spectrum> Path<'_, S> {
             // Nobody can have asked for the sun along this way.
             None => found_cd_m2 += outside.sun_cd_m2(self.direction),
         }
-        let light = self.beta_outside.here * found_cd_m2;
+        let light = self.beta.outside.here * found_cd_m2;
         if let Some(daylight) = &self.daylight {
-            let whence = match self.asked_outside {
+            let whence = match self.last.asked_outside {
                 Some(_) => Whence::Outside(self.direction),
                 None => Whence::Mirrored(self.direction),
             };
-            self.found.from_outside.push(daylight.found(whence, light.luminance()));
+            self.light.found.from_outside.push(daylight.found(whence, light.luminance()));
             return;
         }
-        self.found.add(bounces, light);
+        self.light.found.add(bounces, light);
     }
 
     /// What the path takes to a surface: where it has ended on a map, light from outside past panes
     /// alone.
     pub(super) fn carried(&self, bsdf: &Bsdf<S>) -> S {
-        let has_ended = self.beta.max_channel() == 0.0 && is_pane(bsdf);
-        if has_ended { self.beta_outside.past_panes } else { self.beta }
+        let has_ended = self.beta.all.max_channel() == 0.0 && is_pane(bsdf);
+        if has_ended { self.beta.outside.past_panes } else { self.beta.all }
     }
 }

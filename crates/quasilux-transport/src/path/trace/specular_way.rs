@@ -82,11 +82,11 @@ impl<S: Spectrum> Path<'_, S> {
     }
 
     fn is_on_no_map(&self, context: &Context<'_, S>) -> bool {
-        match self.map_end {
+        match self.maps.end {
             None => true,
             // With a limit, only first surfaces are ends.
-            Some(_) if context.max_bounces.is_some() => self.bounces_asked != 1,
-            Some(_) => self.bounces_asked == 0,
+            Some(_) if context.max_bounces.is_some() => self.last.bounces_asked != 1,
+            Some(_) => self.last.bounces_asked == 0,
         }
     }
 
@@ -108,8 +108,8 @@ impl<S: Spectrum> Path<'_, S> {
         at: &Interaction,
         next: &BsdfSample<S>,
     ) {
-        let way = self.specular_way.take();
-        self.specular_way = match next.pdf_sr {
+        let way = self.last.specular_way.take();
+        self.last.specular_way = match next.pdf_sr {
             Some(pdf_sr) => self.specular_way(context, pdf_sr),
             None => way.and_then(|way| way.past(context, at, next.wi.z > 0.0)),
         };
@@ -122,14 +122,14 @@ impl<S: Spectrum> Path<'_, S> {
         context: &Context<'_, S>,
         at: &Interaction,
     ) -> Option<Asked> {
-        let way = self.specular_way.as_ref()?;
+        let way = self.last.specular_way.as_ref()?;
         let pdf_m2 = match &way.passed {
             Passed::Nothing => return None,
             Passed::Panes => self.asked_m2(context, context.lights.emitters.as_ref()?, at),
             Passed::Mirrors(planes) => {
                 let asked = EmitterPlace { facet: at.facet, position: at.position };
                 let (world, planes) = (&context.world, planes.iter().rev().copied());
-                context.images.asked_over_m2(world, planes, self.asked_from?, asked)?
+                context.images.asked_over_m2(world, planes, self.last.asked_from?, asked)?
             }
         };
         let distance_m = way.distance_m + at.distance_m;

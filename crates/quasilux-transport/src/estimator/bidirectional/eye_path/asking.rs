@@ -269,8 +269,8 @@ impl<S: Spectrum> EyePath<'_, S> {
         work: &mut EyePaths<S>,
     ) {
         let most = engine.context.max_bounces.unwrap_or(u32::MAX);
-        let bounces = self.bounces_asked;
-        let own = self.light.vertices_of(self.subpath).iter();
+        let bounces = self.last.bounces_asked;
+        let own = self.partner.iter();
         let own = own.take_while(|it| bounces + it.bounces < most);
         let count = own.clone().count();
         if count == 0 {
@@ -296,7 +296,7 @@ impl<S: Spectrum> EyePath<'_, S> {
         let from = eye_vertex.vertex.ray_origin(direction);
         let ray = from.shadow_ray(direction, distance_m, vertex.at.facet);
         let (light, bounces) = (light * choice.pdf.recip(), vertex.bounces + 1);
-        work.shadows.max_bounces = most - self.bounces_asked;
+        work.shadows.max_bounces = most - self.last.bounces_asked;
         work.shadows.push_polyline(self.number, light, bounces, RayQuery::NONE, |rays| {
             rays.push(ray);
         });

@@ -2,7 +2,7 @@
 //! light that it sends to the camera as a target measures its illuminance.
 
 use super::asking::EyeVertex;
-use super::{EyePath, EyePaths, EyeWeights, MirroredFrom};
+use super::{EyePath, EyePaths, EyeWeights, LastVertex, MirroredFrom, Passed};
 use crate::bsdf::TransportMode;
 use crate::context::Context;
 use crate::cutoff::Gain;
@@ -69,20 +69,15 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
             number,
             section,
             receiver,
-            light,
-            subpath,
+            partner: light.vertices_of(subpath),
             sampler,
             from,
             direction: receiver.n,
             distance_m: 0.0,
             beta: surface.map_or(S::white() * PI, |first| first.beta),
-            bounces: surface.map_or(0, |first| first.bounces),
-            vertices: 0,
             gain: surface.map_or(Gain::NONE, |first| first.gain),
-            weights: EyeWeights::default(),
-            asked_from: None,
-            mirrored: None,
-            bounces_asked: 0,
+            passed: Passed { surfaces: surface.map_or(0, |first| first.bounces), vertices: 0 },
+            last: LastVertex::default(),
         };
         let goes_on = match surface {
             None => path.start_at_target(engine, work),
@@ -117,9 +112,10 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
         let surface = &Surface::new(&context.world, at, *direction);
         let &Surface { bsdf, frame, wo, .. } = surface;
         let vertex = &Vertex::on(&context.world, at, surface, self.beta);
-        self.bounces_asked = self.bounces + 1;
-        work.shadows.max_bounces =
-            context.max_bounces.map_or(u32::MAX, |most| most.saturating_sub(self.bounces_asked));
+        self.last.bounces_asked = self.passed.surfaces + 1;
+        work.shadows.max_bounces = context
+            .max_bounces
+            .map_or(u32::MAX, |most| most.saturating_sub(self.last.bounces_asked));
         // Photons of lights that have no extent, and of their images, do not count here.
         let alone = &EyeVertex { vertex, weights: EyeWeights::default(), copies: 1.0, number: 0 };
         self.sample_direct_some_pointlikes(engine, vertex, work);
@@ -146,9 +142,9 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
 
     /// What it weighs having left where it measures, in a direction of this density and cosine.
     fn leave(&mut self, context: &Context<'_, S>, vertex: &Vertex<'_, S>, pdf_sr: f64, cos: f64) {
-        self.weights = EyeWeights([SubpathWeights::new(1.0 / pdf_sr, cos / pdf_sr); 2]);
-        self.asked_from = Some(Asking::at(vertex));
-        self.mirrored = MirroredFrom::new(context, vertex, pdf_sr);
+        self.last.weights = EyeWeights([SubpathWeights::new(1.0 / pdf_sr, cos / pdf_sr); 2]);
+        self.last.asked_from = Some(Asking::at(vertex));
+        self.last.mirrored = MirroredFrom::new(context, vertex, pdf_sr);
     }
 
     /// Where it measures, with the photons that come straight from lights there.
