@@ -119,7 +119,7 @@ def test_figures_print_the_digits_that_they_have() -> None:
 def test_the_run_is_described(result: quasilux.Result, scene: quasilux.Scene) -> None:
     assert result.tolerance_reached and result.stopped is None and not result.biased
     assert result.samples >= 128 and result.rays > 0 and result.seconds > 0
-    assert result.replicates == 16 and result.warnings == () and result.findings == ()
+    assert result.replicates == 16 and result.warnings == () == result.caveats == result.findings
     assert result.settings["rel_tol"] == 0.05 and result.settings["estimator"] == "auto"
     document = result.to_dict()
     assert document["format"] == "quasilux-result/1"
@@ -164,7 +164,9 @@ def test_values_that_are_unknown_are_not_numbers() -> None:
     assert [point["half_width_lx"] is None for point in entries] == list(
         np.isnan(desk.half_width_lx).ravel()
     )
-    assert any("have no interval" in warning for warning in few.warnings)
+    (caveat,) = (caveat for caveat in few.caveats if caveat.kind == "no_interval")
+    assert caveat.figures["points"] >= np.isnan(desk.half_width_lx).sum()
+    assert str(caveat) == caveat.message and caveat.message in few.warnings
 
 
 def test_cameras_have_pictures(result: quasilux.Result) -> None:

@@ -1,5 +1,6 @@
 //! Certified intervals, where they were asked for.
 
+use crate::caveat::Caveat;
 use crate::figure::finite;
 use quasilux_transport::{CertifiedInterval, Estimates, IntervalKind, Settings};
 use serde::Serialize;
@@ -41,23 +42,14 @@ impl From<CertifiedInterval> for CertifiedFigure {
 
 /// What a reader must know of the certified intervals of a sensor: which were asked for and are not
 /// there.
-pub(crate) fn warnings(name: &str, figures: &CertifiedFigures) -> Vec<String> {
+pub(crate) fn caveats(name: &str, figures: &CertifiedFigures) -> Vec<Caveat> {
     let CertifiedFigures { points: Some(points), average } = figures else { return Vec::new() };
+    let sensor = || name.to_owned();
+    let of_points = points.len();
     let open = points.iter().filter(|point| point.upper.is_none()).count();
-    let missing = average.is_none().then(|| {
-        format!(
-            "sensor \"{name}\": the average over points that ended with different numbers of \
-             samples has no certified interval; a planned run has (`quasilux plan`)"
-        )
-    });
-    let open = (open > 0).then(|| {
-        format!(
-            "sensor \"{name}\": nothing certain is known of the most light at {open} of {} \
-             points: a certified upper limit needs sequence = \"random\", and a scene whose \
-             surfaces are neither mirrors nor glass nor measured and keep less than all light",
-            points.len()
-        )
-    });
+    let missing = average.is_none().then(|| Caveat::NoCertifiedAverage { sensor: sensor() });
+    let open =
+        (open > 0).then(|| Caveat::NoCertifiedLimit { sensor: sensor(), points: open, of_points });
     missing.into_iter().chain(open).collect()
 }
 
@@ -87,12 +79,13 @@ mod tests {
         let estimates = bounded();
         let nothing = CertifiedFigures::new(&estimates, 0, &Settings::default());
         assert_eq!(nothing, CertifiedFigures::default());
-        assert!(warnings("a", &nothing).is_empty());
+        assert!(caveats("a", &nothing).is_empty());
         let all = CertifiedFigures::new(&estimates, 0, &asked());
         let CertifiedFigure { lower, upper } = all.points.as_ref().expect("points")[0];
         assert!((33.4..39.8).contains(&lower) && upper.is_none(), "{lower}");
-        let told = warnings("a", &all);
-        assert!(told.len() == 1 && told[0].contains("at 3 of 3 points"), "{told:?}");
+        let sensor = "a".to_owned();
+        let expected = Caveat::NoCertifiedLimit { sensor, points: 3, of_points: 3 };
+        assert_eq!(caveats("a", &all), [expected]);
     }
 
     /// 10 lx may come from an index, and there were 4000 of them: `(10 + sqrt(10 ln 40 / 4000))^2`.
@@ -107,7 +100,7 @@ mod tests {
         let upper = all.points.as_ref().expect("points")[0].upper.expect("a limit");
         assert!((upper - 101.9).abs() < 0.1, "{upper}");
         assert_eq!(all.average, None);
-        let told = warnings("a", &all);
-        assert!(told.len() == 1 && told[0].contains("different numbers"), "{told:?}");
+        let expected = Caveat::NoCertifiedAverage { sensor: "a".to_owned() };
+        assert_eq!(caveats("a", &all), [expected]);
     }
 }

@@ -243,7 +243,7 @@ fn scene_and_estimates(sensors: Vec<(Sensor, Vec<Vec<f64>>)>) -> (Scene, Estimat
         unresolved_points: 0,
         biased: false,
         cannot_see: Vec::new(),
-        warnings: Vec::new(),
+        caveats: Vec::new(),
     };
     let scene = Scene {
         sensors: sensors.into_iter().map(|(sensor, _)| sensor).collect(),

@@ -12,6 +12,7 @@ pub(crate) mod example;
 
 pub mod annual;
 pub mod camera;
+mod caveat;
 mod certified;
 pub mod csv;
 mod figure;
@@ -25,6 +26,7 @@ pub mod table;
 mod unseen;
 
 pub use camera::{CameraFiles, CameraReport};
+pub use caveat::Caveat;
 pub use certified::CertifiedFigure;
 pub use figure::Figure;
 pub use outside::{DaylightFactor, DaylightFactorComponents, Outside};

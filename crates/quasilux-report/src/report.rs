@@ -5,6 +5,7 @@
 //! a warning says so.
 
 use crate::CameraReport;
+use crate::caveat::Caveat;
 use crate::certified::{self, CertifiedFigure, CertifiedFigures};
 use crate::figure::{Figure, finite};
 use crate::outside::{DaylightFactor, Outside};
@@ -64,8 +65,10 @@ pub struct Report {
     pub biased: bool,
     /// What is probably wrong with the scene.
     pub findings: Vec<Finding>,
-    /// What a reader of the results must know: from loading, what is probably wrong with the scene,
-    /// from the simulation, from reporting.
+    /// What a reader of the results must know of them, for programs.
+    pub caveats: Vec<Caveat>,
+    /// All that a reader of the results must know, in words: from loading, what is probably wrong
+    /// with the scene, and the caveats.
     pub warnings: Vec<String>,
 }
 
@@ -203,16 +206,8 @@ impl Report {
             (0..scene.cameras.len()).map(|c| CameraReport::new(scene, estimates, c)).collect();
         let mut warnings = facts.warnings;
         warnings.extend(facts.findings.iter().map(ToString::to_string));
-        warnings.extend_from_slice(&estimates.warnings);
-        if estimates.biased && !warnings.iter().any(|w| w.contains("bias")) {
-            warnings.push(format!(
-                "values of the estimator \"{}\" may be biased beyond what their intervals say",
-                settings.estimator.name()
-            ));
-        }
-        warnings.extend(sensors.iter().filter_map(SensorReport::missing_figures));
-        warnings.extend(unseen::warnings(scene, estimates, settings));
-        warnings.extend(sensors.iter().flat_map(SensorReport::certified_warnings));
+        let caveats = caveats(scene, settings, estimates, &sensors);
+        warnings.extend(caveats.iter().map(ToString::to_string));
         Self {
             sensors,
             cameras,
@@ -243,9 +238,28 @@ impl Report {
             explanation: None,
             biased: estimates.biased,
             findings: facts.findings,
+            caveats,
             warnings,
         }
     }
+}
+
+/// What a reader must know: from the simulation, and of the figures.
+fn caveats(
+    scene: &Scene,
+    settings: &Settings,
+    estimates: &Estimates,
+    sensors: &[SensorReport],
+) -> Vec<Caveat> {
+    let mut caveats: Vec<Caveat> = estimates.caveats.iter().cloned().map(Caveat::from).collect();
+    let is_explained = estimates.caveats.iter().any(quasilux_transport::Caveat::is_bias);
+    if estimates.biased && !is_explained {
+        caveats.push(Caveat::Biased { estimator: settings.estimator });
+    }
+    caveats.extend(sensors.iter().filter_map(SensorReport::missing_figures));
+    caveats.extend(unseen::caveats(scene, estimates, settings));
+    caveats.extend(sensors.iter().flat_map(SensorReport::certified_caveats));
+    caveats
 }
 
 /// Says at all points what share of the light outside they get, where only the sky shines.
@@ -326,39 +340,36 @@ impl SensorReport {
         }
     }
 
-    fn certified_warnings(&self) -> Vec<String> {
+    fn certified_caveats(&self) -> Vec<Caveat> {
         let points: Option<Vec<CertifiedFigure>> =
             self.points.iter().map(|point| point.certified_lx).collect();
         let average = self.summary.certified_average_lx;
         let points = points.filter(|points| !points.is_empty());
-        certified::warnings(&self.name, &CertifiedFigures { points, average })
+        certified::caveats(&self.name, &CertifiedFigures { points, average })
     }
 
-    /// A warning that names the figures without a value, if there are any.
-    fn missing_figures(&self) -> Option<String> {
+    /// The figures without a value, if there are any.
+    fn missing_figures(&self) -> Option<Caveat> {
         let summary = [
             ("average", self.summary.average_lx),
             ("minimum", self.summary.minimum_lx),
             ("maximum", self.summary.maximum_lx),
             ("uniformity", self.summary.uniformity),
         ];
-        let mut missing: Vec<String> = summary
-            .iter()
-            .filter(|(_, figure)| figure.value.is_none())
-            .map(|(name, _)| (*name).to_owned())
-            .collect();
+        let missing = summary.iter().filter(|(_, figure)| figure.value.is_none());
+        let figures: Vec<&str> = missing.map(|(name, _)| *name).collect();
         let points = self
             .points
             .iter()
             .filter(|p| p.illuminance_lx.value.is_none() || p.direct_lx.is_none())
             .count();
-        if points > 0 {
-            missing.push(format!("{points} of {} points", self.points.len()));
-        }
-        if missing.is_empty() {
-            return None;
-        }
-        Some(format!("sensor \"{}\": no finite value for {}", self.name, missing.join(", ")))
+        let of_points = self.points.len();
+        (points > 0 || !figures.is_empty()).then(|| Caveat::NoFiniteValue {
+            sensor: self.name.clone(),
+            figures,
+            points,
+            of_points,
+        })
     }
 }
 
@@ -413,6 +424,21 @@ mod tests {
     fn bias_is_never_without_a_warning() {
         let report = example::biased();
         assert!(report.biased);
-        assert_eq!(report.warnings.iter().filter(|w| w.contains("bias")).count(), 1);
+        let expected = Caveat::Biased { estimator: report.run.settings.estimator };
+        assert_eq!(report.warnings, [expected.to_string()]);
+        assert_eq!(report.caveats, [expected]);
+    }
+
+    /// What already says why values are biased is enough.
+    #[test]
+    fn bias_is_told_once() {
+        let (scene, mut estimates) = example::bounded();
+        estimates.biased = true;
+        let of_simulation = quasilux_transport::Caveat::PathsTerminated { paths: 3 };
+        estimates.caveats.push(of_simulation.clone());
+        let report = Report::new(&scene, &Settings::default(), &estimates, RunFacts::default());
+        assert_eq!(report.caveats[0], of_simulation.into());
+        let is_unexplained = |it: &Caveat| matches!(it, Caveat::Biased { .. });
+        assert!(!report.caveats.iter().any(is_unexplained), "{:?}", report.caveats);
     }
 }

@@ -1,8 +1,8 @@
 //! What samples leave open beside intervals: bounds on light that none of them met, and light that
 //! is known as a mean around a point.
 
+use crate::caveat::Caveat;
 use crate::figure::finite;
-use crate::number::brief;
 use quasilux_scene::Scene;
 use quasilux_transport::{Estimates, Settings, UnseenLight};
 
@@ -55,41 +55,37 @@ impl SummaryUnseen {
 }
 
 /// What a reader must know of bounds and discs.
-pub(crate) fn warnings(scene: &Scene, estimates: &Estimates, settings: &Settings) -> Vec<String> {
+pub(crate) fn caveats(scene: &Scene, estimates: &Estimates, settings: &Settings) -> Vec<Caveat> {
     let sensors = scene.sensors.iter().enumerate();
     sensors.flat_map(|(number, own)| of_sensor(&own.name, estimates, number, settings)).collect()
 }
 
-fn of_sensor(name: &str, estimates: &Estimates, sensor: usize, settings: &Settings) -> Vec<String> {
+fn of_sensor(name: &str, estimates: &Estimates, sensor: usize, settings: &Settings) -> Vec<Caveat> {
     let Some(unseen) = &estimates.sensors[sensor].unseen else { return Vec::new() };
-    let points = unseen.point_lx.len();
-    let mut warnings = Vec::new();
-    let unknown = unseen.point_lx.iter().filter(|bound_lx| !bound_lx.is_finite()).count();
-    if unknown > 0 {
-        warnings.push(format!(
-            "sensor \"{name}\": nothing bounds the light that no sample met at {unknown} of \
-             {points} points"
-        ));
+    let of_points = unseen.point_lx.len();
+    let mut caveats = Vec::new();
+    let points = unseen.point_lx.iter().filter(|bound_lx| !bound_lx.is_finite()).count();
+    if points > 0 {
+        caveats.push(Caveat::NoBound { sensor: name.to_owned(), points, of_points });
     }
     let intervals = estimates.point_intervals(sensor);
     let is_blurred = |point: &usize| {
         let tolerance_lx = settings.tolerance_lx(intervals[*point].value);
         unseen.merged_lx[*point] > BLURRED * tolerance_lx
     };
-    let blurred: Vec<usize> = (0..points).filter(is_blurred).collect();
+    let blurred: Vec<usize> = (0..of_points).filter(is_blurred).collect();
     let radii = || blurred.iter().filter_map(|point| unseen.disc_radius_m[*point]);
     if let Some((least, most)) = radii().reduce(f64::min).zip(radii().reduce(f64::max)) {
-        let [least, most] = [least, most].map(|radius_m| brief(radius_m, 2));
-        let radius = if least == most { most } else { format!("{least} to {most}") };
-        let share = blurred.iter().map(|point| unseen.merged_lx[*point]).fold(0.0, f64::max);
-        warnings.push(format!(
-            "sensor \"{name}\": {} of {points} points are blurred: up to {} lx of their values are \
-             means over a disc of {radius} m radius around them",
-            blurred.len(),
-            brief(share, 2),
-        ));
+        caveats.push(Caveat::Blurred {
+            sensor: name.to_owned(),
+            points: blurred.len(),
+            of_points,
+            most_lx: blurred.iter().map(|point| unseen.merged_lx[*point]).fold(0.0, f64::max),
+            least_radius_m: least,
+            most_radius_m: most,
+        });
     }
-    warnings
+    caveats
 }
 
 #[cfg(test)]
@@ -97,25 +93,34 @@ mod tests {
     use super::*;
     use crate::example;
 
-    fn told(change: impl FnOnce(&mut UnseenLight)) -> Vec<String> {
+    fn told(change: impl FnOnce(&mut UnseenLight)) -> Vec<Caveat> {
         let (scene, mut estimates) = example::bounded();
         change(estimates.sensors[0].unseen.as_mut().expect("a bound"));
-        warnings(&scene, &estimates, &Settings { abs_tol_lx: 0.1, ..Settings::default() })
+        caveats(&scene, &estimates, &Settings { abs_tol_lx: 0.1, ..Settings::default() })
     }
 
     /// A tenth of 1 % of 100 lx is 0.1 lx, which the first point passes; a tenth of 0.1 lx stands
     /// in the dark.
     #[test]
     fn blurred_points_are_told_with_the_radius() {
-        let blurred = "sensor \"desk\": 1 of 3 points are blurred: up to 0.5 lx of their values \
-                       are means over a disc of 0.1 m radius around them";
-        assert_eq!(told(|_| ()), [blurred]);
+        let blurred = "sensor \"desk\": blurred at 1 of 3 points, where up to 0.5 lx is a mean \
+                       over a disc of 0.1 m radius around the point";
+        assert_eq!(told(|_| ()).iter().map(ToString::to_string).collect::<Vec<_>>(), [blurred]);
         assert!(told(|unseen| unseen.merged_lx = vec![0.09, 0.4, 0.009]).is_empty());
         let two = told(|unseen| {
             unseen.merged_lx[2] = 0.2;
             unseen.disc_radius_m[2] = Some(0.05);
         });
-        assert!(two[0].contains("2 of 3 points") && two[0].contains("0.05 to 0.1 m"), "{two:?}");
+        let expected = Caveat::Blurred {
+            sensor: "desk".to_owned(),
+            points: 2,
+            of_points: 3,
+            most_lx: 0.5,
+            least_radius_m: 0.05,
+            most_radius_m: 0.1,
+        };
+        assert!(two[0].to_string().contains("a disc of 0.05 to 0.1 m radius"), "{}", two[0]);
+        assert_eq!(two, [expected]);
     }
 
     /// JSON has no infinity: the figure is missing, and the reader is told.
@@ -124,9 +129,8 @@ mod tests {
         let unknown = told(|unseen| {
             *unseen = UnseenLight::unknown(3);
         });
-        let expected =
-            "sensor \"desk\": nothing bounds the light that no sample met at 3 of 3 points";
-        assert_eq!(unknown, [expected]);
+        let sensor = "desk".to_owned();
+        assert_eq!(unknown, [Caveat::NoBound { sensor, points: 3, of_points: 3 }]);
         assert_eq!(PointUnseen::new(&UnseenLight::unknown(3), 1).bound_lx, None);
     }
 

@@ -39,15 +39,15 @@ pub(crate) struct Context<'a, S> {
     pub(crate) lights: Lights<'a>,
     /// Of the point-like lights, in mirrors.
     pub(crate) images: SpecularImages,
-    /// What light of points and luminaires only photons find, in words.
-    pub(crate) hides: Option<String>,
+    /// How light of points and luminaires comes that only photons find.
+    pub(crate) hides: Vec<UnshownWay>,
     pub(crate) max_bounces: Option<u32>,
     /// Coordinates that photons on maps may have used.
     pub(crate) map_dimensions: Option<u32>,
     /// Terms of the Neumann series to keep apart; 0 for none.
     pub(crate) listed_terms: u32,
-    /// What a reader of the results must know of the lights' places.
-    pub(crate) warning: Option<String>,
+    /// Luminaires whose luminous shape a surface passes through.
+    pub(crate) cut_shapes: u64,
     /// Told of the steps of waves, in benchmarks.
     pub(crate) stopwatch: Option<&'a dyn Stopwatch>,
     /// Told what coordinates are drawn for, where that is to be explained.
@@ -172,17 +172,8 @@ impl<'a, S: Spectrum> Context<'a, S> {
         let world = World::new(prepared, simd);
         let lights = Lights::new(scene, &world, settings.estimator);
         let images = SpecularImages::new(&world, &lights.pointlikes, settings.image_depth);
-        let ways = images.unshown_ways(&world, &lights).into_iter().map(UnshownWay::in_words);
-        let ways: Vec<String> = ways.collect();
-        let hides = (!ways.is_empty()).then(|| ways.join(", "));
-        let cut = lights.area_luminaires.cut_by_surfaces(&world);
-        let warning = (cut > 0).then(|| {
-            format!(
-                "surfaces pass through the luminous shapes of {cut} luminaires, and light that \
-                 starts behind them stays there; a shape is centred on `position`, so on a ceiling \
-                 it belongs half its height lower"
-            )
-        });
+        let hides = images.unshown_ways(&world, &lights);
+        let cut_shapes = lights.area_luminaires.cut_by_surfaces(&world);
         Self {
             world,
             lights,
@@ -191,7 +182,7 @@ impl<'a, S: Spectrum> Context<'a, S> {
             max_bounces: settings.max_bounces,
             map_dimensions: settings.map_dimensions,
             listed_terms: settings.list_terms,
-            warning,
+            cut_shapes,
             stopwatch: None,
             purposes: PurposeRecorder::default(),
             settings,

@@ -1,5 +1,4 @@
-//! Light that would not end: where photons and paths are cut, and what readers of the results are
-//! told.
+//! Light that would not end: where photons and paths are cut.
 //!
 //! Flux falls from bounce to bounce wherever something absorbs. It stays in halls of perfect
 //! mirrors. It grows between surfaces whose tables say that they give more than they get: the
@@ -10,7 +9,7 @@ pub(crate) const MAX_EVENTS: u32 = 4096;
 
 /// Light that became this many times as much on its way is cut: a single bounce is taken as its
 /// table says, however much that is.
-const MAX_GAIN: f64 = 100.0;
+pub(crate) const MAX_GAIN: f64 = 100.0;
 
 /// What surfaces made of light on its way, expected values of all chances: the product of their
 /// albedos.
@@ -32,15 +31,4 @@ impl Gain {
     pub(crate) fn is_cut(self) -> bool {
         self.0 > MAX_GAIN
     }
-}
-
-/// Of some photons or paths that were cut; `values` are what is too low without them.
-pub(crate) fn warning(count: u64, who: &str, values: &str) -> Option<String> {
-    (count > 0).then(|| {
-        format!(
-            "{count} {who} were cut after {MAX_EVENTS} bounces, or where surfaces that give more \
-             than they get had made {MAX_GAIN} times as much of them: light is trapped here, and \
-             {values} are too low"
-        )
-    })
 }

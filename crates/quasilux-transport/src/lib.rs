@@ -58,6 +58,7 @@ mod stats;
 mod world;
 
 // A run: what it is asked for, and what it gives.
+pub use lights::images::UnshownWay;
 pub use prepared::PreparedScene;
 pub use run::check::{CheckError, check};
 pub use run::memory::MemoryNeed;
@@ -65,6 +66,7 @@ pub use run::simulate::{is_over, resume, simulate, simulate_with_workers};
 pub use settings::{
     EstimatorKind, IntervalKind, Reconstruction, Settings, Switch, ToleranceOn, UnseenTolerance,
 };
+pub use stats::caveat::Caveat;
 pub use stats::certified::{self, CertifiedInterval, IndexTotals};
 pub use stats::estimates::{
     self, Convergence, Dimensions, Estimates, FluxBalance, SensorEstimates, TermEstimates,

@@ -27,6 +27,7 @@ from quasilux._native import InputError, Progress
 
 if TYPE_CHECKING:
     from quasilux import bsdf, photometry, qmc, ray
+    from quasilux._caveat import Caveat
     from quasilux._figure import Figure
     from quasilux._finding import Check, Finding
     from quasilux._result import Result
@@ -38,6 +39,7 @@ __version__: str = _native.__version__
 
 __all__ = [
     "CameraResult",
+    "Caveat",
     "Check",
     "Figure",
     "Finding",
@@ -60,6 +62,7 @@ __all__ = [
 # What is imported when it is first asked for: importing the package takes a few milliseconds.
 _HOMES = {
     "CameraResult": "_sensor_result",
+    "Caveat": "_caveat",
     "Check": "_finding",
     "Figure": "_figure",
     "Finding": "_finding",

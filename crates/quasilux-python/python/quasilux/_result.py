@@ -11,6 +11,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from quasilux import _native
+from quasilux._caveat import Caveat
 from quasilux._finding import Finding
 from quasilux._sensor_result import CameraResult, SensorResult
 
@@ -141,8 +142,13 @@ class Result(Mapping[str, SensorResult]):
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """What a reader of the results must know."""
+        """What a reader of the results must know, in words: caveats and findings, too."""
         return tuple(map(self._origins.text, self._document["warnings"]))
+
+    @property
+    def caveats(self) -> tuple[Caveat, ...]:
+        """What a reader of the values must know, for programs."""
+        return tuple(map(Caveat._from_entry, self._document["caveats"]))
 
     @property
     def findings(self) -> tuple[Finding, ...]:

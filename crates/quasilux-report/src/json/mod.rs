@@ -33,9 +33,11 @@
 //! `externally_reflected_component` and `internally_reflected_component`, the first two with what
 //! no path met of each at most (`components_unseen`). Where it was asked for, `explain` says which
 //! coordinates carry the variance. `findings` are what is probably wrong with the scene, each with
-//! the `check` that found it, place and `cure`; `warnings` have them as text, too.
+//! the `check` that found it, place and `cure`; `caveats` what to know of the values, each with its
+//! `kind` and figures; `warnings` have both as text, too.
 
 mod camera;
+mod caveat;
 mod explanation;
 mod finding;
 mod layout;
@@ -48,6 +50,7 @@ use crate::{CertifiedFigure, DaylightFactor, Figure, Outside, Report, Run, Senso
 pub use finding::FindingEntry;
 
 use camera::CameraEntry;
+use caveat::CaveatEntry;
 use explanation::ExplanationEntry;
 use layout::Layout;
 use prediction::PredictionEntry;
@@ -93,6 +96,7 @@ struct Document<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     explain: Option<ExplanationEntry<'a>>,
     findings: Vec<FindingEntry<'a>>,
+    caveats: Vec<CaveatEntry>,
     warnings: &'a [String],
 }
 
@@ -226,6 +230,7 @@ impl<'a> Document<'a> {
             run: RunEntry::new(&report.run),
             explain: report.explanation.as_ref().map(ExplanationEntry::new),
             findings: report.findings.iter().map(FindingEntry::new).collect(),
+            caveats: report.caveats.iter().map(CaveatEntry::new).collect(),
             warnings: &report.warnings,
         }
     }
@@ -453,7 +458,12 @@ mod tests {
         assert_eq!(sensor["points"][2]["illuminance_lx"], 1.0);
         assert_eq!(sensor["summary"]["average_lx"]["value"], Value::Null);
         assert_eq!(document["run"]["seconds"], Value::Null);
-        assert!(document["warnings"][0].as_str().is_some_and(|w| w.contains("desk")));
+        let caveat = &document["caveats"][0];
+        assert_eq!(
+            (&caveat["kind"], &caveat["sensor"]),
+            (&"no_finite_value".into(), &"desk".into())
+        );
+        assert_eq!(document["warnings"][0], caveat["message"]);
     }
 
     #[test]

@@ -13,7 +13,10 @@ pub enum StateError {
     #[error("{0} does not fit this scene and these settings")]
     Unfit(&'static str),
     /// Surveys and pilots come to other decisions here than where the state comes from.
-    #[error("surveys and pilots decide otherwise here than where this was made")]
+    #[error(
+        "surveys and pilots decide otherwise than when this was written: the build, the scene or \
+         the settings differ"
+    )]
     Decisions,
 }
 

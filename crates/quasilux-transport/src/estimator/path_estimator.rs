@@ -9,7 +9,6 @@ mod state;
 
 use crate::codec::{Reader, StateError, Writer};
 use crate::context::{Context, Stream};
-use crate::cutoff;
 use crate::estimator::Estimator;
 use crate::estimator::block::BlockFrame;
 use crate::estimator::exact::{ComputedLight, Exact, computed_light};
@@ -21,6 +20,7 @@ use crate::photon::caustics::CausticMap;
 use crate::photon::counts::PhotonCounts;
 use crate::settings::Settings;
 use crate::spectrum::Spectrum;
+use crate::stats::caveat::Caveat;
 use crate::stats::decisions::Decisions;
 use crate::stats::estimates::{Dimensions, Estimates, SensorEstimates, TermEstimates};
 use crate::stats::scores::Scores;
@@ -292,15 +292,15 @@ impl<S: Spectrum> Estimator for PathEstimator<'_, S> {
             terms: self.terms(),
             unseen: None,
         };
-        let of_paths = cutoff::warning(work.endless, "paths", "values");
-        let warnings = photons.warning().into_iter().chain(of_paths).collect();
+        let of_paths = Caveat::of_paths(work.endless);
+        let caveats = photons.caveat().into_iter().chain(of_paths).collect();
         Estimates {
             sensors: by_sensor(self.scene, all),
             samples: self.progress.samples,
             rays: work.rays + photons.rays,
             flux: photons.balance(self.context.lights.flux_lm),
             biased: work.endless + photons.trapped > 0,
-            warnings,
+            caveats,
             dimensions: Dimensions {
                 photon: photons.dimensions,
                 photons: photons.begun,

@@ -218,7 +218,7 @@ impl<S: Spectrum> Estimator for PhotonEstimator<'_, S> {
             },
             biased: self.photons.endless > 0,
             invalid_contributions: self.photons.invalid,
-            warnings: self.photons.warning().into_iter().collect(),
+            caveats: self.photons.caveat().into_iter().collect(),
             ..Estimates::default()
         }
     }

@@ -172,8 +172,8 @@ impl<'a> AreaLuminaires<'a> {
 
     /// How many have a shape that encloses a volume which surfaces pass through: part of their
     /// light starts behind these.
-    pub(crate) fn cut_by_surfaces<S: Spectrum>(&self, world: &World<S>) -> usize {
-        self.lights.iter().filter(|light| is_cut(light.luminaire, world)).count()
+    pub(crate) fn cut_by_surfaces<S: Spectrum>(&self, world: &World<S>) -> u64 {
+        self.lights.iter().filter(|light| is_cut(light.luminaire, world)).count() as u64
     }
 }
 

@@ -82,7 +82,9 @@ impl<S: Spectrum> CausticMap<S> {
         settings: &Settings,
         targets: &[Target],
     ) -> Option<Self> {
-        context.hides.as_ref().filter(|_| context.max_bounces != Some(0))?;
+        if context.hides.is_empty() || context.max_bounces == Some(0) {
+            return None;
+        }
         let constant =
             Settings { map_reconstruction: Reconstruction::Constant, ..settings.clone() };
         let layout = MapLayout::new(&context.world, &constant);

@@ -1,7 +1,7 @@
 //! Counts of photons: the balance of their flux, rays and coordinates.
 
 use crate::codec::{Sums, add_count, add_quanta, histogram};
-use crate::cutoff;
+use crate::stats::caveat::Caveat;
 use crate::stats::estimates::FluxBalance;
 use quasilux_sampling::DimensionHistogram;
 use serde::{Deserialize, Serialize};
@@ -67,8 +67,8 @@ impl PhotonCounts {
     }
 
     /// What a reader of the results must know of them.
-    pub(crate) fn warning(&self) -> Option<String> {
-        cutoff::warning(self.endless + self.trapped, "photons", "values")
+    pub(crate) fn caveat(&self) -> Option<Caveat> {
+        Caveat::of_photons(self.endless + self.trapped)
     }
 }
 

@@ -1,6 +1,7 @@
 //! Whether settings make sense for a scene, and what a reader of the results must know.
 
 use crate::settings::{EstimatorKind, IntervalKind, Settings, Switch, UnseenTolerance};
+use crate::stats::caveat::Caveat;
 use quasilux_scene::{Quantity, Scene, SensorShape};
 
 /// Settings that cannot work for this scene.
@@ -176,16 +177,16 @@ pub(crate) fn is_biased(scene: &Scene, settings: &Settings) -> bool {
 }
 
 /// All that a reader of the results must know.
-pub(crate) fn caveats(scene: &Scene, settings: &Settings) -> Vec<String> {
+pub(crate) fn caveats(scene: &Scene, settings: &Settings) -> Vec<Caveat> {
     let mut caveats = caveats_of_values(scene, settings);
     if settings.effective_replicates() < 2 {
-        caveats.push("one replicate gives no interval, and no tolerance can be reached".to_owned());
+        caveats.push(Caveat::OneReplicate);
     }
     caveats
 }
 
 /// What biases the values.
-fn caveats_of_values(scene: &Scene, settings: &Settings) -> Vec<String> {
+fn caveats_of_values(scene: &Scene, settings: &Settings) -> Vec<Caveat> {
     let mut caveats = Vec::new();
     match settings.estimator {
         EstimatorKind::Photon => {
@@ -194,26 +195,13 @@ fn caveats_of_values(scene: &Scene, settings: &Settings) -> Vec<String> {
                 SensorShape::Grid(grid) => grid.quantity == Quantity::Centre,
             };
             if scene.sensors.iter().any(|sensor| reads_points(&sensor.shape)) {
-                caveats.push(
-                    "the estimator \"photon\" gives means over cells, map elements and small \
-                     squares, which are biased as values at points; ask grids for \
-                     quantity = \"mean\""
-                        .to_owned(),
-                );
+                caveats.push(Caveat::MeansAtPoints);
             }
         }
         EstimatorKind::BidirectionalMap => {
-            caveats.push(
-                "the estimator \"bidirectional-map\" reads means over map elements; the intervals \
-                 leave out this bias"
-                    .to_owned(),
-            );
-            caveats.extend(settings.map_dimensions.map(|most| {
-                format!(
-                    "photons that took more than {most} coordinates are left out of maps: \
-                 values may be too low"
-                )
-            }));
+            caveats.push(Caveat::MeansOverMapElements);
+            let left_out = |map_dimensions| Caveat::MapDimensions { map_dimensions };
+            caveats.extend(settings.map_dimensions.map(left_out));
         }
         EstimatorKind::Auto | EstimatorKind::Path | EstimatorKind::Bidirectional => {}
     }

@@ -8,12 +8,12 @@
 //! none.
 
 use crate::context::Context;
-use crate::cutoff;
 use crate::path::sections::WorkCounts;
 use crate::run::pass::Pass;
 use crate::run::pixels::{Darkroom, Exposure, Step};
 use crate::settings::Settings;
 use crate::spectrum::Spectrum;
+use crate::stats::caveat::Caveat;
 use crate::stats::estimates::Estimates;
 use crate::stats::observer::PictureProgress;
 use crate::stats::picture::CameraEstimates;
@@ -60,8 +60,8 @@ pub(crate) fn add_pictures<S: Spectrum>(
             taken.invalid += sitting.darkroom.invalid_photons();
         }
         let Exposure { figures, invalid, .. } = taken;
-        estimates.warnings.extend(wish.complaint(camera, &figures));
-        estimates.warnings.extend(wish.blur(camera, &figures));
+        estimates.caveats.extend(wish.shortfall(camera, &figures));
+        estimates.caveats.extend(wish.blur(camera, &figures));
         estimates.invalid_contributions += invalid;
         estimates.cameras.push(figures);
     }
@@ -74,7 +74,7 @@ pub(crate) fn add_pictures<S: Spectrum>(
     estimates.rays += work.rays;
     estimates.dimensions.path.merge(&work.dimensions);
     estimates.biased |= work.endless > 0;
-    estimates.warnings.extend(cutoff::warning(work.endless, "paths of pictures", "luminances"));
+    estimates.caveats.extend(Caveat::of_picture_paths(work.endless));
 }
 
 /// What is wanted of a picture.
@@ -158,44 +158,29 @@ impl Wish {
 
     /// That light is blurred which only photons found, where that is more than a tenth of what may
     /// be off.
-    fn blur(&self, camera: &Camera, figures: &CameraEstimates) -> Option<String> {
+    fn blur(&self, camera: &Camera, figures: &CameraEstimates) -> Option<Caveat> {
         let radius_m = figures.disc_radius_m?;
         let share = figures.merged_mean_cd_m2 / figures.mean_cd_m2();
         let told = BLURRED * self.rel_tol.unwrap_or(REL_TOL);
-        (share > told).then(|| {
-            format!(
-                "{:.1} % of the light in the picture of camera \"{}\" comes from photons, over \
-                 mirrors or through glass: it is blurred over {radius_m:.2} m",
-                100.0 * share,
-                camera.name
-            )
-        })
+        let camera = camera.name.clone();
+        (share > told).then_some(Caveat::PictureBlurred { camera, share, radius_m })
     }
 
     /// What a reader must know of a picture that is not what was wanted.
-    fn complaint(&self, camera: &Camera, figures: &CameraEstimates) -> Option<String> {
-        let name = &camera.name;
+    fn shortfall(&self, camera: &Camera, figures: &CameraEstimates) -> Option<Caveat> {
+        let camera = camera.name.clone();
         let samples = figures.samples;
-        let known = match figures.relative_half_width() {
-            Some(known) => format!("it is known to {:.2} %", 100.0 * known),
-            None => "little is known of it".to_owned(),
-        };
+        let relative_half_width = figures.relative_half_width();
         match self.rel_tol {
             _ if figures.is_done => None,
-            _ if samples == 0 => Some(format!(
-                "camera \"{name}\" has no picture: the run was stopped before it had a path for \
-                 each pixel"
-            )),
-            Some(rel_tol) => Some(format!(
-                "the picture of camera \"{name}\" ends with {samples} paths a pixel and replicate: \
-                 {known}, not to {} %",
-                100.0 * rel_tol
-            )),
-            None => Some(format!(
-                "the picture of camera \"{name}\" was stopped at {samples} of {} paths a pixel and \
-                 replicate",
-                self.most
-            )),
+            _ if samples == 0 => Some(Caveat::NoPicture { camera }),
+            Some(rel_tol) => Some(Caveat::PictureAboveTolerance {
+                camera,
+                samples,
+                relative_half_width,
+                rel_tol,
+            }),
+            None => Some(Caveat::PictureUnfinished { camera, samples, wanted_samples: self.most }),
         }
     }
 }

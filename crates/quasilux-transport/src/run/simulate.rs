@@ -11,10 +11,11 @@ use crate::run::course::Course;
 use crate::run::pictures::add_pictures;
 use crate::settings::{EstimatorKind, Settings};
 use crate::spectrum::{Spectrum, is_grey};
+use crate::stats::caveat::Caveat;
 use crate::stats::decisions::Decisions;
 use crate::stats::estimates::Estimates;
 use crate::stats::observer::{Control, Observer};
-use crate::stats::schedule::{MIN_SAMPLES, Schedule};
+use crate::stats::schedule::Schedule;
 use crate::stats::sequential::Stopping;
 use crate::stats::tolerance::Standing;
 use crate::stats::watch::Watch;
@@ -265,8 +266,9 @@ pub(crate) fn look<S: Spectrum>(
     estimates.confidence = settings.confidence;
     estimates.miss_probability = miss_probability;
     estimates.biased |= is_biased(scene, settings);
-    estimates.warnings.extend(caveats(scene, settings));
-    estimates.warnings.extend(context.warning.clone());
+    estimates.caveats.extend(caveats(scene, settings));
+    let luminaires = context.cut_shapes;
+    estimates.caveats.extend((luminaires > 0).then_some(Caveat::CutShapes { luminaires }));
     // An estimator with a bound says itself what it cannot make.
     let is_bounded = settings.estimator.is_bounded();
     if !is_bounded {
@@ -275,44 +277,26 @@ pub(crate) fn look<S: Spectrum>(
     let sees_hidden = !is_bounded
         && settings.estimator != EstimatorKind::Photon
         && settings.max_bounces != Some(0);
-    if let (Some(ways), true) = (&context.hides, sees_hidden) {
+    if sees_hidden && !context.hides.is_empty() {
         estimates.biased = true;
-        estimates.warnings.push(format!(
-            "light that goes straight to a diffuse surface or a sensor {ways} comes from photon \
-             density: it is blurred over about the length of a map element, and missing on \
-             surfaces that are not plain diffuse ones"
-        ));
+        estimates.caveats.push(Caveat::Caustics { ways: context.hides.clone() });
     }
     let standing = Standing::new(&estimates, settings);
     estimates.unresolved_points = standing.unresolved;
-    estimates.warnings.extend(warnings_of_values(&estimates));
+    estimates.caveats.extend(caveats_of_checkpoint(&estimates));
     let may_be_done = standing.has_enough(estimates.samples, settings);
     estimates.tolerance_reached = standing.is_reached && may_be_done;
     if standing.is_reached && !may_be_done {
-        estimates.warnings.push(format!(
-            "half-widths are within the tolerance, but {} samples are too few to rely on them: \
-             nothing is called done before {MIN_SAMPLES}",
-            estimates.samples
-        ));
+        estimates.caveats.push(Caveat::FewSamples { samples: estimates.samples });
     }
     Look { estimates, standing }
 }
 
 /// What a reader must know of the values of this checkpoint.
-fn warnings_of_values(estimates: &Estimates) -> Vec<String> {
-    let mut warnings = Vec::new();
-    if estimates.invalid_contributions > 0 {
-        warnings.push(format!(
-            "{} contributions were not finite, negative or too large, and are not in the results",
-            estimates.invalid_contributions
-        ));
-    }
-    let unresolved = estimates.unresolved_points;
-    if unresolved > 0 {
-        warnings.push(format!(
-            "at {unresolved} sensor points light may be that was not found: they may be dark or \
-             light may be hard to find, and their values have no interval"
-        ));
-    }
-    warnings
+fn caveats_of_checkpoint(estimates: &Estimates) -> Vec<Caveat> {
+    let contributions = estimates.invalid_contributions;
+    let points = estimates.unresolved_points;
+    let invalid = (contributions > 0).then_some(Caveat::InvalidContributions { contributions });
+    let unresolved = (points > 0).then_some(Caveat::NoInterval { points });
+    invalid.into_iter().chain(unresolved).collect()
 }

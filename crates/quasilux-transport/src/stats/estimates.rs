@@ -2,6 +2,7 @@
 //! of points, averages and pictures that follow from them.
 
 use crate::settings::Settings;
+use crate::stats::caveat::Caveat;
 use crate::stats::certified::{CertifiedInterval, Measured, miss_at_a_checkpoint};
 use crate::stats::decisions::Decisions;
 use crate::stats::even_average::EvenAverage;
@@ -59,7 +60,7 @@ pub struct Estimates {
     /// point": values are without their light, or have it blurred. Empty where there are none.
     pub cannot_see: Vec<String>,
     /// What a reader of the results must know.
-    pub warnings: Vec<String>,
+    pub caveats: Vec<Caveat>,
 }
 
 /// The figures of one sensor.
@@ -154,14 +155,12 @@ impl Estimates {
                 unseen: settings.estimator.is_bounded().then(|| UnseenLight::unknown(points)),
             }
         };
-        let warning = "the run was stopped before each sensor point had a sample in all \
-                       replicates: no value is known";
         Self {
             sensors: scene.sensors.iter().map(of_sensor).collect(),
             confidence: settings.confidence,
             miss_probability: 1.0 - settings.confidence,
             unresolved_points: scene.sensors.iter().map(|it| it.len() as u64).sum(),
-            warnings: vec![warning.to_owned()],
+            caveats: vec![Caveat::NoValues],
             ..Self::default()
         }
     }

@@ -2,12 +2,13 @@
 //!
 //! [`tally`] holds the sums, [`interval`] and [`minimum`] how intervals are made, [`estimates`]
 //! those of sensor values, [`even_average`] those of averages, [`unseen`] what is left open beside
-//! them, [`point_status`] what a point waits for, [`certified`] intervals that hold for any number
-//! of samples, [`sequential`] what looking several times costs them, [`schedule`] and [`tolerance`]
+//! them, [`point_status`] what a point waits for, [`caveat`] what else a reader must know,
+//! [`certified`] intervals that hold for any number of samples, [`sequential`] what looking several times costs them, [`schedule`] and [`tolerance`]
 //! what the decision to stop needs (`run::simulate` takes it), [`convergence`] the prediction of
 //! the end, [`efficiency`] the choice between estimators, [`observer`] and [`watch`] the way out of
 //! a run, [`workers`] the way to other processes.
 
+pub(crate) mod caveat;
 pub mod certified;
 pub mod convergence;
 pub(crate) mod decisions;

@@ -9,7 +9,7 @@ use glam::{DMat3, DVec3};
 use quasilux_photometry::{Axis, LuminousShape, Solid, read_ies};
 use quasilux_scene::light::{Luminaire, Placement};
 use quasilux_scene::{Grid, Light, Quantity, Scene, Sensor, SensorShape};
-use quasilux_transport::{Estimates, EstimatorKind, Settings, simulate};
+use quasilux_transport::{Caveat, Estimates, EstimatorKind, Settings, simulate};
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
@@ -345,8 +345,8 @@ fn a_shape_that_a_ceiling_cuts_is_warned_of() {
         scene.lights.push(Light::Luminaire(luminaire(Beam::Isotropic, shape, position)));
         scene.sensors.push(points("floor", &[(DVec3::new(2.0, 1.5, 0.0), DVec3::Z)]));
         let settings = Settings { max_samples: Some(16), ..Settings::default() };
-        let warnings = simulate(&scene, &settings, &mut ()).warnings;
-        warnings.iter().any(|warning| warning.contains("pass through the luminous shape"))
+        let caveats = simulate(&scene, &settings, &mut ()).caveats;
+        caveats.contains(&Caveat::CutShapes { luminaires: 1 })
     };
     for shape in shapes(0.5) {
         assert_eq!(warned(2.5, shape), shape.is_solid(), "{} in the ceiling", shape.name());

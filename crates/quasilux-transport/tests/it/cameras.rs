@@ -7,7 +7,8 @@ use quasilux_scene::bsdf::Diffuse;
 use quasilux_scene::rgb::LUMINANCE_WEIGHTS;
 use quasilux_scene::{Bsdf, Camera, Material, Rgb, Scene};
 use quasilux_transport::{
-    CheckError, Control, Estimates, EstimatorKind, Observer, Progress, Settings, check, simulate,
+    Caveat, CheckError, Control, Estimates, EstimatorKind, Observer, Progress, Settings, check,
+    simulate,
 };
 use std::f64::consts::PI;
 
@@ -184,7 +185,7 @@ fn a_stopped_picture_is_that_of_the_pass_before() {
         assert_eq!(stopped.cameras[0].pixels, once.cameras[0].pixels);
         assert_eq!(stopped.cameras[0].samples, passes);
         assert_eq!((stopped.tolerance_reached, once.tolerance_reached), (false, true));
-        assert_eq!(stopped.warnings.len(), 1, "{:?}", stopped.warnings);
+        assert_eq!(stopped.caveats.len(), 1, "{:?}", stopped.caveats);
     }
 }
 
@@ -197,8 +198,9 @@ fn a_picture_may_not_have_begun() {
     scene.cameras = vec![eye.clone(), Camera { name: "other".to_owned(), ..eye }];
     let estimates = simulate(&scene, &settings, &mut Impatient(0));
     assert!(estimates.cameras.iter().all(|c| c.pixels.is_empty() && c.samples == 0));
-    assert_eq!(estimates.warnings.len(), 2, "{:?}", estimates.warnings);
-    assert!(estimates.warnings[1].contains("camera \"other\" has no picture"));
+    let camera = "other".to_owned();
+    assert_eq!(estimates.caveats.len(), 2, "{:?}", estimates.caveats);
+    assert_eq!(estimates.caveats[1], Caveat::NoPicture { camera });
     assert!(!estimates.tolerance_reached && estimates.sensors_reached);
 }
 
@@ -254,7 +256,8 @@ fn pictures_show_light_that_only_photons_find() {
         let max_samples = Some(64);
         let settings = Settings { image_depth, max_bounces, max_samples, ..Settings::default() };
         let estimates = simulate(&scene, &settings, &mut ());
-        let blurred = estimates.warnings.iter().filter(|it| it.contains("blurred over 0.1"));
+        let is_blurred = |it: &&Caveat| matches!(it, Caveat::PictureBlurred { radius_m, .. } if (0.1..0.2).contains(radius_m));
+        let blurred = estimates.caveats.iter().filter(is_blurred);
         assert_eq!(blurred.count(), usize::from(image_depth == Some(0)));
         let mean = estimates.picture_mean(0);
         assert!(mean.half_width.unwrap() < 0.01 * mean.value, "{mean:?}");

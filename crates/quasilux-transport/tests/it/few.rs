@@ -5,7 +5,7 @@ use crate::scenes::{diffuse, point_light, points};
 use glam::DVec3;
 use quasilux_scene::light::AreaLight;
 use quasilux_scene::{Light, Scene};
-use quasilux_transport::{EstimatorKind, Settings, simulate};
+use quasilux_transport::{Caveat, EstimatorKind, Settings, simulate};
 use std::f64::consts::PI;
 
 const LUMINANCE_CD_M2: f64 = 100.0;
@@ -81,8 +81,8 @@ fn a_tolerance_is_not_reached_by_a_handful_of_samples() {
         let misses = |width: f64| (interval.value - truth_lx).abs() > width;
         wrong += u32::from(is_narrow && interval.half_width.is_some_and(misses));
         assert!(!estimates.tolerance_reached, "{seed}");
-        let is_told = estimates.warnings.iter().any(|warning| warning.contains("too few"));
-        assert_eq!(is_told, is_narrow, "{seed}: {:?}", estimates.warnings);
+        let is_told = estimates.caveats.iter().any(|it| matches!(it, Caveat::FewSamples { .. }));
+        assert_eq!(is_told, is_narrow, "{seed}: {:?}", estimates.caveats);
     }
     println!("{wrong} of 100 are wrong");
     assert!(wrong > 20, "the test has lost its power: {wrong}");

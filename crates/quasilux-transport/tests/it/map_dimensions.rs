@@ -1,7 +1,9 @@
 //! Maps without photons that took many coordinates: the paper's balance of dimensions.
 
 use crate::element_size::room_with_points;
-use quasilux_transport::{CheckError, Estimates, EstimatorKind, Settings, Switch, check, simulate};
+use quasilux_transport::{
+    Caveat, CheckError, Estimates, EstimatorKind, Settings, Switch, check, simulate,
+};
 
 fn run(map_dimensions: Option<u32>) -> Estimates {
     let settings = Settings {
@@ -30,8 +32,9 @@ fn the_paper_s_map_goes_without_what_is_left_out() {
         assert!(pair[0].iter().zip(&pair[1]).all(|(less, more)| *less < 0.98 * more), "{found}");
     }
     assert_eq!(run(Some(10_000)).sensors, all.sensors);
-    let says =
-        |estimates: &Estimates| estimates.warnings.iter().any(|w| w.contains("may be too low"));
+    let says = |estimates: &Estimates| {
+        estimates.caveats.contains(&Caveat::MapDimensions { map_dimensions: 6 })
+    };
     assert!(says(&run(Some(6))) && !says(&all));
 }
 

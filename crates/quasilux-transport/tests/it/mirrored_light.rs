@@ -12,7 +12,7 @@ use glam::DVec3;
 use quasilux_scene::bsdf::{Dielectric, Diffuse, Mirror};
 use quasilux_scene::light::PointLight;
 use quasilux_scene::{Bsdf, Grid, Light, Material, Quantity, Rgb, Scene, Sensor, SensorShape};
-use quasilux_transport::{Estimates, EstimatorKind, Settings, simulate};
+use quasilux_transport::{Caveat, Estimates, EstimatorKind, Settings, UnshownWay, simulate};
 
 /// A box of 4 m by 3 m by 2.5 m with two lamps and a grid over the floor.
 fn lit_room(reflectance: f64) -> Scene {
@@ -41,7 +41,7 @@ pub(crate) fn make_wall(scene: &mut Scene, first: usize, bsdf: Bsdf) {
 fn run(scene: &Scene, estimator: EstimatorKind, max_bounces: Option<u32>) -> Estimates {
     let settings = Settings { estimator, max_bounces, rel_tol: 0.01, ..Settings::default() };
     let estimates = simulate(scene, &settings, &mut ());
-    assert!(estimates.tolerance_reached, "{estimator:?}: {:?}", estimates.warnings);
+    assert!(estimates.tolerance_reached, "{estimator:?}: {:?}", estimates.caveats);
     assert_eq!(estimates.invalid_contributions, 0, "{estimator:?}");
     estimates
 }
@@ -66,7 +66,7 @@ fn assert_agree(
                 EstimatorKind::BidirectionalMap => true,
                 _ => biased,
             };
-            assert_eq!(paths.biased, expected, "{:?}", paths.warnings);
+            assert_eq!(paths.biased, expected, "{:?}", paths.caveats);
             for (x, y) in photons.point_intervals(0).iter().zip(paths.point_intervals(0)) {
                 let allowed = 1.5 * (x.half_width.unwrap() + y.half_width.unwrap());
                 let what = format!("{estimator:?}, {max_bounces:?}: {x:?} against {y:?}");
@@ -121,11 +121,8 @@ fn chains_past_the_depth_are_not_lost() {
     let settings = Settings { estimator, image_depth: Some(1), ..Settings::default() };
     let paths = simulate(&scene, &settings, &mut ());
     assert!(paths.biased && paths.tolerance_reached);
-    assert!(
-        paths.warnings.iter().any(|w| w.contains("more than 1 mirrors")),
-        "{:?}",
-        paths.warnings
-    );
+    let ways = vec![UnshownWay::OverManyMirrors { depth: 1 }];
+    assert!(paths.caveats.contains(&Caveat::Caustics { ways }), "{:?}", paths.caveats);
     for (x, y) in photons.point_intervals(0).iter().zip(paths.point_intervals(0)) {
         let allowed = 1.5 * (x.half_width.unwrap() + y.half_width.unwrap());
         assert!((x.value - y.value).abs() <= allowed, "{x:?} against {y:?}");

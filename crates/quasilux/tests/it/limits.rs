@@ -2,6 +2,7 @@
 
 use crate::scenes::{Look, remove_probes, write_room};
 use crate::support::{Folder, number, parsed, without_seconds_and_threads};
+use serde_json::Value;
 
 /// A tolerance that no run of a test reaches.
 const OUT_OF_REACH: [&str; 2] = ["--rel-tol", "1e-9"];
@@ -26,6 +27,12 @@ fn a_reached_tolerance_gives_exit_code_0() {
     assert!(number(&document, "/run/samples") < 100_000.0);
 }
 
+/// The kinds of the caveats in a document.
+fn caveats(document: &Value) -> Vec<&str> {
+    let all = document["caveats"].as_array().expect("a list of caveats");
+    all.iter().map(|caveat| caveat["kind"].as_str().expect("a kind")).collect()
+}
+
 /// Half-widths of a handful of samples say nothing, however small.
 #[test]
 fn a_handful_of_samples_reaches_no_tolerance() {
@@ -34,8 +41,8 @@ fn a_handful_of_samples_reaches_no_tolerance() {
         let more = ["--rel-tol", "100%", "--samples", samples, "--estimator", "path"];
         let document = parsed(&folder.document("room.toml", samples, &more, code));
         assert_eq!(document["run"]["tolerance_reached"], code == 0);
-        let warned = document["warnings"].to_string().contains("too few");
-        assert_eq!(warned, code == 3, "{samples}: {}", document["warnings"]);
+        let warned = caveats(&document).contains(&"few_samples");
+        assert_eq!(warned, code == 3, "{samples}: {}", document["caveats"]);
     }
 }
 
@@ -91,7 +98,6 @@ fn certified_limits_can_be_asked_for() {
     assert!(found(&[])["sensors"][0]["points"][0].get("certified_lx").is_none());
     for sequence in ["random", "sobol"] {
         let document = found(&["--interval", "certified", "--sequence", sequence]);
-        let warnings = document["warnings"].to_string();
         let of_average = ["/sensors/0/summary/average_lx", "value"];
         for [of, name] in [["/sensors/0/points/0", "illuminance_lx"], of_average] {
             let value = number(&document, &format!("{of}/{name}"));
@@ -101,8 +107,8 @@ fn certified_limits_can_be_asked_for() {
             let is_above = upper.as_f64().is_some_and(|upper| upper > value);
             assert_eq!((is_above, upper.is_null()), (sequence == "random", sequence == "sobol"));
         }
-        let told = warnings.contains("certified upper limit needs sequence = \\\"random\\\"");
-        assert_eq!(told, sequence == "sobol", "{warnings}");
+        let told = caveats(&document).contains(&"no_certified_limit");
+        assert_eq!(told, sequence == "sobol", "{}", document["caveats"]);
     }
     let refused = ["run", "room.toml", "--interval", "certified", "--estimator", "path"];
     let run = folder.quasilux(&refused);
@@ -119,7 +125,8 @@ fn without_intervals_samples_end_a_run() {
     assert!(document["sensors"][0]["points"][0]["half_width_lx"].is_null());
     assert!(number(&document, "/sensors/0/points/0/illuminance_lx") > 0.0);
     assert_eq!(document["run"]["replicates"], 1);
-    assert_eq!(document["warnings"].as_array().map(Vec::len), Some(1), "{}", document["warnings"]);
+    assert_eq!(caveats(&document), ["one_replicate"]);
+    assert_eq!(document["warnings"][0], document["caveats"][0]["message"]);
 }
 
 #[test]
@@ -181,8 +188,7 @@ fn assert_nothing_is_known(document: &str) {
     assert_eq!(document["run"]["tolerance_reached"], false);
     let points = document["sensors"][0]["points"].as_array().expect("points");
     assert!(points.len() == 10_000 && points.iter().all(|it| it["illuminance_lx"].is_null()));
-    let warnings = document["warnings"].to_string();
-    assert!(warnings.contains("stopped before each sensor point had a sample"), "{warnings}");
+    assert_eq!(caveats(&document)[0], "no_values");
 }
 
 #[test]

@@ -61,7 +61,7 @@ fn the_document_has_the_agreed_keys() {
     let document = parsed(&folder.document("room.toml", "out", &[], 0));
     assert_eq!(document["format"], "quasilux-result/1");
     assert_eq!(document["biased"], false);
-    assert!(document["warnings"].is_array());
+    assert!(document["warnings"].is_array() && document["caveats"].is_array());
     let kinds = [("plane", "grid", 6), ("probes", "points", 2)];
     for (sensor, (name, kind, points)) in
         document["sensors"].as_array().expect("sensors").iter().zip(kinds)
@@ -182,6 +182,7 @@ fn quiet_prints_nothing() {
     let document = parsed(&folder.read("out/room/result.json"));
     assert_eq!(document["biased"], true);
     assert_eq!(document["warnings"].as_array().map(Vec::len), Some(1));
+    assert_eq!(document["caveats"][0]["kind"], "means_over_map_elements");
 }
 
 #[test]

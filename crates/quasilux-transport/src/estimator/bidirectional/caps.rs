@@ -255,7 +255,7 @@ fn kinds<S: Spectrum>(
     let sky_lx = outside.map_or(0.0, |outside| PI * SKY_MARGIN * outside.brightest_cd_m2());
     let sun_lx = outside.map_or(0.0, |outside| outside.sun_brightness()[1]);
     let never = f64::INFINITY;
-    let images_hide = context.hides.is_some();
+    let images_hide = !context.hides.is_empty();
     let lamps = Kind {
         flux_lm: pointlikes_lm,
         eye_lx: surfaces.lit_by_pointlikes(engine),

@@ -10,7 +10,6 @@ use super::sums::TargetSums;
 use super::unit::UnitSums;
 use crate::codec::{Reader, StateError, Sums, Writer, add_count, digest};
 use crate::context::Context;
-use crate::cutoff;
 use crate::estimator::Estimator;
 use crate::estimator::block::BlockFrame;
 use crate::estimator::exact::{ComputedLight, Exact, computed_light};
@@ -19,6 +18,7 @@ use crate::importance::Copies;
 use crate::path::sections::WorkCounts;
 use crate::settings::{IntervalKind, Settings, Switch};
 use crate::spectrum::Spectrum;
+use crate::stats::caveat::Caveat;
 use crate::stats::decisions::Decisions;
 use crate::stats::estimates::{Dimensions, Estimates, SensorEstimates, TermEstimates};
 use crate::stats::point_status::Evidence;
@@ -242,7 +242,7 @@ impl<S: Spectrum> Estimator for BidirectionalEstimator<'_, S> {
             rays: paths.rays + self.computed.rays + self.pilot_rays,
             flux: flux.balance(&engine.context.lights, *photons, engine.flux_quantum),
             biased: paths.endless > 0,
-            warnings: cutoff::warning(paths.endless, "paths", "values").into_iter().collect(),
+            caveats: Caveat::of_paths(paths.endless).into_iter().collect(),
             dimensions: Dimensions {
                 photons: *photons,
                 path: paths.dimensions.clone(),

@@ -33,7 +33,7 @@ use quasilux_sampling::choose_weights;
 use tree::{Imaged, Images};
 
 pub(crate) use light_path_class::LightPathClass;
-pub(crate) use unshown::UnshownWay;
+pub use unshown::UnshownWay;
 
 /// Up to this number of images at a vertex are all tested; of more one is chosen.
 const ALL_TESTED: usize = 8;

@@ -7,31 +7,39 @@ use crate::lights::Lights;
 use crate::lights::outside::OutsideLight;
 use crate::spectrum::Spectrum;
 use crate::world::{Facet, World};
+use serde::{Deserialize, Serialize};
+use std::fmt;
 
-/// One kind of them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum UnshownWay {
+/// How light of points and luminaires comes that no image shows and no path finds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum UnshownWay {
     /// From luminous shapes by specular surfaces.
     FromShapes,
     /// Through refracting bodies.
     ThroughBodies,
-    /// By mirrors of many small planes, so many facets.
-    ByCurvedMirrors(usize),
-    /// Over more mirrors than this, one after the other.
-    OverManyMirrors(u32),
+    /// By mirrors of many small planes.
+    ByCurvedMirrors {
+        /// Their facets.
+        facets: usize,
+    },
+    /// Over more mirrors, one after the other, than there are images of.
+    OverManyMirrors {
+        /// Mirrors that images are followed over.
+        depth: u32,
+    },
 }
 
-impl UnshownWay {
-    /// As part of a sentence.
-    pub(crate) fn in_words(self) -> String {
+impl fmt::Display for UnshownWay {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::FromShapes => "from luminous shapes by mirrors".to_owned(),
-            Self::ThroughBodies => "through refracting bodies".to_owned(),
-            Self::ByCurvedMirrors(facets) => {
-                format!("by curved mirrors ({facets} facets in many small planes)")
-            }
-            Self::OverManyMirrors(depth) => {
-                format!("over more than {depth} mirrors one after the other")
+            Self::FromShapes => f.write_str("from luminous shapes by mirrors"),
+            Self::ThroughBodies => f.write_str("through refracting bodies"),
+            Self::ByCurvedMirrors { facets } => write!(f, "by curved mirrors of {facets} facets"),
+            Self::OverManyMirrors { depth: 0 } => f.write_str("over mirrors"),
+            Self::OverManyMirrors { depth } => {
+                write!(f, "over {} mirrors or more in a row", depth + 1)
             }
         }
     }
@@ -57,11 +65,11 @@ impl SpecularImages {
             ways.push(UnshownWay::ThroughBodies);
         }
         if self.mirrors.curved_facets > 0 {
-            ways.push(UnshownWay::ByCurvedMirrors(self.mirrors.curved_facets));
+            ways.push(UnshownWay::ByCurvedMirrors { facets: self.mirrors.curved_facets });
         }
         if self.images.goes_on {
             let depth = self.images.nodes.last().map_or(0, |image| image.depth);
-            ways.push(UnshownWay::OverManyMirrors(depth));
+            ways.push(UnshownWay::OverManyMirrors { depth });
         }
         ways
     }
@@ -84,10 +92,10 @@ impl SpecularImages {
             match way {
                 UnshownWay::FromShapes => {}
                 UnshownWay::ThroughBodies => add("lamp", "glass body"),
-                UnshownWay::ByCurvedMirrors(_) => add("lamp", "curved mirror"),
-                UnshownWay::OverManyMirrors(0) => add("lamp", "mirror"),
-                UnshownWay::OverManyMirrors(1) => add("lamp", "2 mirrors or more"),
-                UnshownWay::OverManyMirrors(depth) => {
+                UnshownWay::ByCurvedMirrors { .. } => add("lamp", "curved mirror"),
+                UnshownWay::OverManyMirrors { depth: 0 } => add("lamp", "mirror"),
+                UnshownWay::OverManyMirrors { depth: 1 } => add("lamp", "2 mirrors or more"),
+                UnshownWay::OverManyMirrors { depth } => {
                     add("lamp", &format!("{} mirrors or more", depth + 1));
                 }
             }
