@@ -153,8 +153,8 @@ impl<'a> Table<'a> {
         Self { name, reference, start, longest_seconds, reached, reached_everywhere: None }
     }
 
-    /// Prints what there is after so many samples of each replicate; `known` is the reference where
-    /// it is of the same sensors.
+    /// Prints what there is after this many samples of each replicate; `known` is the reference
+    /// where it is of the same sensors.
     fn look(
         &mut self,
         samples: u64,

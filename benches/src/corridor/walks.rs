@@ -42,7 +42,7 @@ impl Walks {
         Self { numbers: Numbers(replicate << 48), sums: [0.0; SENSORS], walks: 0, rays: 0 }
     }
 
-    /// Goes on with all replicates until each has so many walks.
+    /// Goes on with all replicates until each has this many walks.
     pub(crate) fn grow(replicates: &mut [Self], walks: u64) {
         replicates.par_iter_mut().for_each(|replicate| {
             (replicate.walks..walks).for_each(|_| replicate.walk());

@@ -12,7 +12,7 @@ use crate::warning::Warnings;
 use crate::window_xml::read_bsdf_xml;
 use quasilux_text::{ParseError, Position, quoted};
 
-/// The mark of a format stands within so many bytes, those of comments before it not counted.
+/// The mark of a format stands within this many bytes, those of comments before it not counted.
 const SEARCHED: usize = 1 << 14;
 
 /// Reads a measured surface of any known format, told by the content; that of a DDR file is

@@ -36,7 +36,7 @@ impl<'t> Tokens<'t> {
         self.at
     }
 
-    /// Goes on by so many bytes. Line feed, carriage return and both together end a line.
+    /// Goes on by this many bytes. Line feed, carriage return and both together end a line.
     fn skip(&mut self, bytes: usize) -> &'t str {
         let (skipped, rest) = self.rest.split_at(bytes);
         let following = skipped.bytes().skip(1).chain(rest.bytes().next());

@@ -13,7 +13,7 @@ const OUTPUT_RATIO: [f64; 2] = [0.1, 1.15];
 const MAX_LM_W: f64 = 400.0;
 /// Files have 0 or 1 where nobody knows the watts.
 const UNKNOWN_W: f64 = 1.0;
-/// Nobody makes a lamp so many times brighter than it was measured.
+/// Nobody makes a lamp this many times brighter than it was measured.
 const MAX_DIMMING: f64 = 10.0;
 
 pub(crate) fn check(scene: &Scene, findings: &mut Findings<'_>) {

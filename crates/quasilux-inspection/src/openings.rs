@@ -66,7 +66,7 @@ pub(crate) fn check(survey: &Survey<'_>, findings: &mut Findings<'_>) {
     }
 }
 
-/// So many places along each edge.
+/// This many places along each edge.
 fn places_of(opening: &Opening, count: u32) -> impl Iterator<Item = DVec3> {
     let Opening { origin, u, v } = *opening;
     let along = move |i: u32| (f64::from(i) + 0.5) / f64::from(count);

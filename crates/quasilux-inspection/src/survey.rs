@@ -17,7 +17,7 @@ const LAMP_WALKS: [u32; 2] = [8, 64];
 const ALL_LAMP_WALKS: u32 = 4096;
 /// Sensor points that are looked at in all, evenly over sensors.
 const SENSOR_POINTS: usize = 512;
-/// Places of each camera's picture; so many more are tried where these show nothing.
+/// Places of each camera's picture; this many more are tried where these show nothing.
 const CAMERA_WALKS: u32 = 64;
 const FINE_CAMERA_WALKS: u32 = 4096;
 /// Reflections of a walk.
@@ -30,10 +30,10 @@ const LIT_POINTS: usize = 64;
 const MAX_LAMPS_ASKED: usize = 64;
 /// Directions in which the sky is looked for.
 const SKY_DIRECTIONS: u32 = 32;
-/// A place from which so many directions meet nothing is not in a room: behind a large flat surface
-/// it is a half, in front of a missing wall less than a third.
+/// A place from which this many directions meet nothing is not in a room: behind a large flat
+/// surface it is a half, in front of a missing wall less than a third.
 const OPEN_SHARE: f64 = 0.35;
-/// From a place in a room with windows so many do, at most.
+/// From a place in a room with windows this many do, at most.
 const ROOM_SHARE: f64 = 0.1;
 
 /// A place that light passes, with the side that it comes from.
@@ -103,7 +103,7 @@ impl<'a> Survey<'a> {
             is_lit: Vec::new(),
             is_open: false,
         };
-        // Of each lamp as many of its places as all lamps have room for, or of each so many lamps
+        // Of each lamp as many of its places as all lamps have room for, or of each this many lamps
         // one. All places of many lamps would take more memory than the lamps.
         let each = (MAX_PAIRS / scene.lights.len().max(1)).max(1);
         let stride = scene.lights.len().div_ceil(MAX_PAIRS).max(1);

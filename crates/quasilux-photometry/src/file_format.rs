@@ -19,7 +19,7 @@ pub enum Format {
     Tm33,
 }
 
-/// The mark of a format stands within so many bytes.
+/// The mark of a format stands within this many bytes.
 const MAX_SEARCHED: usize = 1 << 16;
 /// EULUMDAT: lines 3 to 7 hold the symmetry and the numbers and distances of planes and angles.
 const LDT_NUMBERS: std::ops::Range<usize> = 2..7;

@@ -12,7 +12,7 @@ pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(luminance_scale, module)?)
 }
 
-/// Red, green and blue of so many colours from the lowest value to the highest, in [0, 1].
+/// Red, green and blue of this many colours from the lowest value to the highest, in [0, 1].
 #[pyfunction]
 fn false_colour_map(py: Python<'_>, count: usize) -> Bound<'_, PyArrayDyn<f64>> {
     let colours = false_colours(count);

@@ -90,7 +90,7 @@ pub fn count(n: u64) -> String {
     text
 }
 
-/// Memory of so many bytes: `1.5 GiB`, `96 MiB`.
+/// Memory of this many bytes: `1.5 GiB`, `96 MiB`.
 #[must_use]
 pub fn memory(bytes: u64) -> String {
     let mib = bytes as f64 / f64::from(1 << 20);

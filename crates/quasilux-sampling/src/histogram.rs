@@ -102,7 +102,7 @@ impl DimensionHistogram {
         self.largest
     }
 
-    /// So many coordinates are enough for this share of the samples, up to [`LAST`](Self::LAST) +
+    /// This many coordinates are enough for this share of the samples, up to [`LAST`](Self::LAST) +
     /// 1; 0 without samples.
     #[must_use]
     pub fn quantile(&self, share: f64) -> u32 {

@@ -66,7 +66,7 @@ impl LocalTime {
         before + self.day + u32::from(self.month > 2 && is_leap_year(self.year))
     }
 
-    /// The Julian date where the clock is so many hours ahead of Greenwich.
+    /// The Julian date where the clock is this many hours ahead of Greenwich.
     pub(crate) fn julian_date(&self, time_zone_h: f64) -> f64 {
         // J. Meeus, "Astronomical algorithms" (1998), chapter 7, with March as the first month.
         let from_march = (self.month + 9) % 12;
@@ -113,7 +113,7 @@ impl std::str::FromStr for LocalTime {
     }
 }
 
-/// Unsigned numbers of so many digits.
+/// Unsigned numbers of this many digits.
 fn numbers<const N: usize>(text: &str, separator: char, digits: [usize; N]) -> Option<[u32; N]> {
     let mut fields = text.split(separator);
     let mut found = [0; N];

@@ -90,7 +90,8 @@ pub fn solid_angle_of_the_sun_sr() -> f64 {
     4.0 * PI * half * half
 }
 
-/// The mean luminance of the sun's disk in cd/m2 that gives so many lx on a plane across its rays.
+/// The mean luminance of the sun's disk in cd/m2 that gives this many lx on a plane across its
+/// rays.
 #[must_use]
 pub fn sun_luminance_cd_m2(normal_illuminance_lx: f64) -> f64 {
     // Over the disk the cosine is 1 but for a part of 10^-5, which is counted in: the projected

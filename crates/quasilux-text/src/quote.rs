@@ -12,7 +12,7 @@ const INVISIBLE: [RangeInclusive<char>; 4] = [
     '\u{2060}'..='\u{2069}',
     '\u{feff}'..='\u{feff}',
 ];
-/// A word in a message is cut after so many characters: file names are shorter.
+/// A word in a message is cut after this many characters: file names are shorter.
 const MAX_WORD: usize = 300;
 
 /// An excerpt in quotation marks, without control characters, cut after 40 characters.

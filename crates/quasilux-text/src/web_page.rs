@@ -2,7 +2,7 @@
 
 use crate::{ParseError, Position};
 
-/// A web page says what it is within so many bytes.
+/// A web page says what it is within this many bytes.
 const SEARCHED: usize = 1024;
 
 /// Refuses a web page: what is saved from the page about a file is that page, whatever its name.

@@ -40,7 +40,7 @@ pub(crate) struct Context<'a, S> {
     /// Of the point-like lights, in mirrors.
     pub(crate) images: SpecularImages,
     /// How light of points and luminaires comes that only photons find.
-    pub(crate) hides: Vec<UnshownWay>,
+    pub(crate) caustic_ways: Vec<UnshownWay>,
     pub(crate) max_bounces: Option<u32>,
     /// Coordinates that photons on maps may have used.
     pub(crate) map_dimensions: Option<u32>,
@@ -172,13 +172,13 @@ impl<'a, S: Spectrum> Context<'a, S> {
         let world = World::new(prepared, simd);
         let lights = Lights::new(scene, &world, settings.estimator);
         let images = SpecularImages::new(&world, &lights.pointlikes, settings.image_depth);
-        let hides = images.unshown_ways(&world, &lights);
+        let caustic_ways = images.unshown_ways(&world, &lights);
         let cut_shapes = lights.area_luminaires.cut_by_surfaces(&world);
         Self {
             world,
             lights,
             images,
-            hides,
+            caustic_ways,
             max_bounces: settings.max_bounces,
             map_dimensions: settings.map_dimensions,
             listed_terms: settings.list_terms,

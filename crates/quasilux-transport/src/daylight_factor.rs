@@ -9,17 +9,17 @@
 
 use crate::context::Context;
 use crate::lights::{SKY_MARGIN, Suns};
-use crate::path::daylight::{DaylightSearch, FromOutside, LastReflection, Whence};
+use crate::path::daylight::{DaylightSearch, FromOutside, LastReflection, OutsideSource};
 use crate::path::daylight_paths::{TargetReplicate, trace};
 use crate::path::trace::outside::most_of_a_path_lx;
 use crate::path::wave::PathWave;
 use crate::prepared::PreparedScene;
+use crate::sensors::{Target, targets};
 use crate::settings::{EstimatorKind, Settings};
 use crate::spectrum::{Spectrum, is_grey};
 use crate::stats::interval::{Interval, t_quantile_for};
 use crate::stats::schedule::MIN_SAMPLES;
 use crate::stats::sequential::Stopping;
-use crate::stats::targets::{Target, targets};
 use crate::stats::unseen::unseen_lx;
 use quasilux_scene::Rgb;
 use rayon::prelude::*;
@@ -133,8 +133,10 @@ fn add<S: Spectrum>(
     let search = DaylightSearch { suns: &Suns::default(), only_from_beyond: true };
     trace(context, search, of, paths, wave, |FromOutside { whence, reflection, light }| {
         let is_ground = match whence {
-            Whence::Outside(direction) | Whence::Mirrored(direction) => direction.z < 0.0,
-            Whence::Sun(..) => false,
+            OutsideSource::Outside(direction) | OutsideSource::Mirrored(direction) => {
+                direction.z < 0.0
+            }
+            OutsideSource::Sun(..) => false,
         };
         match reflection {
             _ if !light.is_finite() => {}
@@ -145,7 +147,7 @@ fn add<S: Spectrum>(
     });
 }
 
-/// What is known after so many paths of each replicate, each of which finds `most_lx` at most.
+/// What is known after this many paths of each replicate, each of which finds `most_lx` at most.
 fn components(sums: &[[f64; 2]], paths: u64, most_lx: f64, t: Option<f64>) -> DaylightComponents {
     let [sky_lx, externally_reflected_lx] =
         [0, 1].map(|k| Interval::of_mean(sums.iter().map(|sums| sums[k] / paths as f64), t));

@@ -37,6 +37,7 @@ mod annual;
 mod bsdf;
 mod codec;
 mod context;
+mod control;
 mod cutoff;
 mod daylight_factor;
 mod estimator;
@@ -45,6 +46,7 @@ mod importance;
 mod lights;
 mod path;
 mod photon;
+mod pictures;
 mod prepared;
 pub mod purpose;
 mod run;
@@ -52,6 +54,7 @@ mod run;
 #[expect(dead_code, reason = "some scenes are for other tests")]
 #[path = "../tests/it/scenes.rs"]
 mod scenes;
+mod sensors;
 pub mod settings;
 mod spectrum;
 mod stats;
@@ -79,14 +82,14 @@ pub use stats::unseen::{self, UnseenLight};
 
 // Watching it.
 pub use codec::StateError;
+pub use control::observer::{self, Control, Observer, PictureProgress, Progress, Snapshot};
 pub use stats::convergence;
-pub use stats::observer::{self, Control, Observer, PictureProgress, Progress, Snapshot};
 
 // Its parts, on other machines and in other processes.
+pub use control::workers::{Received, Workers};
 pub use run::blocks::{BlockTracer, trace_blocks};
 pub use run::parts::{MergeError, decide, merge, trace_part};
 pub use stats::decisions::Decisions;
-pub use stats::workers::{Received, Workers};
 
 // Daylight.
 pub use annual::{

@@ -236,10 +236,10 @@ pub struct Settings {
     pub max_bounces: Option<u32>,
     /// How many terms of the Neumann series are listed, light of 0, 1, .. bounces, beside the rest;
     /// 0 lists none. An illumination map gets one layer for each but the first two, and one for the
-    /// rest: its memory grows so many times.
+    /// rest: its memory grows this many times.
     pub list_terms: u32,
     /// Limit on the number of indices per replicate: photons, and paths for each sensor point. A
-    /// pixel of a camera gets so many paths, or 16 without a limit.
+    /// pixel of a camera gets this many paths, or 16 without a limit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub max_samples: Option<u64>,
     /// Limit on the number of rays: the run ends with the last checkpoint, past the first, that

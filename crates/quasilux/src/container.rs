@@ -45,7 +45,7 @@ pub(crate) fn read(path: &Path) -> io::Result<Vec<u8>> {
 
 /// The bytes of the next of several files in one, up to where the reader ends; `None` at its end.
 /// What is no file of this format is read no further than its first bytes, and no part of it may
-/// have more than so many.
+/// have more than this many.
 pub(crate) fn next(
     reader: &mut dyn Read,
     format: &str,

@@ -31,7 +31,7 @@ impl<'a> Forecast<'a> {
         Self { scene, file_bytes: places.file_bytes, settings, threads, need }
     }
 
-    /// Memory of the program for a run of so many samples; for one of any number with `None`.
+    /// Memory of the program for a run of this many samples; for one of any number with `None`.
     pub(crate) fn bytes(&self, samples: Option<u64>) -> u64 {
         let thread_bytes = match self.settings.estimator {
             EstimatorKind::Path => PATH_THREAD_BYTES,

@@ -25,7 +25,7 @@ pub(crate) struct Meter {
 }
 
 impl Meter {
-    /// Of a job of so many steps.
+    /// Of a job of this many steps.
     pub(crate) fn new(total: u64) -> Self {
         let style = ProgressStyle::with_template("{bar:24} {msg}")
             .expect("the template is well formed")

@@ -21,7 +21,7 @@ const TICK: Duration = Duration::from_millis(500);
 const SHOWN_SENSORS: usize = 3;
 /// Photons or paths after which the run can be kept: about a second's.
 const PIECE: u64 = 1 << 19;
-/// Between two looks at them is so much time at least, and so many times what a look takes.
+/// Between two looks at them is so much time at least, and this many times what a look takes.
 const BETWEEN_LOOKS: Duration = Duration::from_millis(250);
 const LOOK_SHARE: u32 = 50;
 /// The same for keeping the run.
@@ -167,7 +167,7 @@ impl<'a> Watcher<'a> {
         }
     }
 
-    /// For a run that took so many seconds already.
+    /// For a run that took this many seconds already.
     pub(crate) fn going_on(self, earlier_seconds: f64) -> Self {
         Self { earlier_seconds, ..self }
     }

@@ -5,7 +5,7 @@ pub(super) const SIGNIFICANCE: f64 = 0.01;
 /// Two setups are alike if their errors differ by less than this factor.
 pub(super) const ALIKE: f64 = 1.1;
 
-/// What that leaves for each of so many tests (Z. Sidak 1967).
+/// What that leaves for each of this many tests (Z. Sidak 1967).
 pub(super) fn each_of(tests: usize) -> f64 {
     -libm::expm1(libm::log1p(-SIGNIFICANCE) / tests.max(1) as f64)
 }

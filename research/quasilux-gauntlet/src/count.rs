@@ -119,7 +119,7 @@ impl Count {
         f64::from(self.intervals) * likelihood::false_with_bound()
     }
 
-    /// The probability that chance gives so many runs with false intervals, or more.
+    /// The probability that chance gives this many runs with false intervals, or more.
     pub(crate) fn probability(&self) -> f64 {
         if self.runs == 0 {
             return 1.0;

@@ -8,7 +8,7 @@ const REPLICATES: usize = 16;
 pub const HALF_WIDTH_PER_ERROR: f64 = 1.96;
 /// An interval that is farther from the truth, in standard errors, is false.
 pub const FALSE_FROM: f64 = 5.0;
-/// Of the unseen light that may be above a value, so many times what is said of it with 95 %.
+/// Of the unseen light that may be above a value, this many times what is said of it with 95 %.
 pub const UNSEEN_FROM: f64 = 3.2;
 /// Light above `UNSEEN_FROM` times what is unseen is promised in no more than this share.
 pub const UNSEEN_MISSED: f64 = 1e-4;
@@ -60,7 +60,7 @@ pub fn at_least(count: u32, trials: u32, p: f64) -> f64 {
     (count..=trials).map(term).sum::<f64>().min(1.0)
 }
 
-/// The standard deviation of a share of so many trials of probability `p`.
+/// The standard deviation of a share of this many trials of probability `p`.
 #[must_use]
 pub fn deviation(p: f64, trials: u32) -> f64 {
     (p * (1.0 - p) / f64::from(trials.max(1))).sqrt()

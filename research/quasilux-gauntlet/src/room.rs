@@ -92,7 +92,7 @@ pub struct Lamp {
 /// How a point light shines.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shine {
-    /// So many cd in all directions.
+    /// This many cd in all directions.
     Everywhere(f64),
     /// The same all round an aim.
     Table {

@@ -10,7 +10,7 @@ use crate::sky::Sun;
 use crate::vertex::Vertex;
 use crate::world::{Arrival, World};
 
-/// Up to so many point lights all are asked at every vertex, else one of them.
+/// Up to this many point lights all are asked at every vertex, else one of them.
 const ASK_ALL: usize = 3;
 
 impl World<'_> {

@@ -8,7 +8,7 @@ const SURVIVAL: [f64; 2] = [0.5, 0.97];
 /// Bounces without roulette.
 const SURE_BOUNCES: u32 = 2;
 
-/// One over the probability of going on from a vertex after so many bounces, or nothing where the
+/// One over the probability of going on from a vertex after this many bounces, or nothing where the
 /// path ends.
 pub(crate) fn survive(vertex: &mut Vertex, bounces: u32, random: &mut Xoshiro) -> Option<f64> {
     if bounces <= SURE_BOUNCES {

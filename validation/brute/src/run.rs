@@ -65,7 +65,7 @@ impl<'w> Run<'w> {
         }
     }
 
-    /// Traces so many more of each batch, paths for the sensors that ask for them or walks if one
+    /// Traces this many more of each batch, paths for the sensors that ask for them or walks if one
     /// does; tells whether there was any.
     pub(crate) fn trace(&mut self, paths: u64, asks: impl Fn(usize) -> bool) -> bool {
         let asking: Vec<usize> = (0..self.sums.len()).filter(|&number| asks(number)).collect();

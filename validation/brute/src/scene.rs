@@ -56,7 +56,7 @@ pub enum Source {
 }
 
 impl Scene {
-    /// The share of directions that go to the hints after so many diffuse bounces.
+    /// The share of directions that go to the hints after this many diffuse bounces.
     pub(crate) fn share_of_hints(&self, bounces: u32) -> f64 {
         let falling = (0..bounces.min(32)).fold(self.hint_share, |share, _| share / 1.5);
         falling.max(self.late_hint_share.min(self.hint_share))

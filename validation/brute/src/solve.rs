@@ -31,7 +31,7 @@ pub struct Limits {
     pub paths: u64,
 }
 
-/// Traces so many paths for each sensor, rounded up to full batches.
+/// Traces this many paths for each sensor, rounded up to full batches.
 #[must_use]
 pub fn solve(scene: &Scene, paths_per_sensor: u64, seed: u64) -> Vec<Estimate> {
     solve_by(scene, Mode::Paths, paths_per_sensor, seed)

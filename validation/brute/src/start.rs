@@ -32,7 +32,7 @@ pub(crate) enum Start<'a> {
     /// At a light in the scene: luminous flux over probability is `weight` times the value of the
     /// vertex over the density of the direction.
     Within { vertex: Vertex<'a>, weight: f64 },
-    /// From outside with so many lm.
+    /// From outside with this many lm.
     Outside { origin: DVec3, direction: DVec3, flux_lm: f64 },
 }
 

@@ -152,10 +152,12 @@ fn pages_and_comments_point_to_what_is_there() {
         let lines = page.lines().enumerate().map(|(number, line)| (number + 1, line));
         found.extend(signposts::broken_links(&root, &path, &page));
         found.extend(signposts::gone_paths(&root, &path, signposts::prose(&page)));
+        found.extend(signposts::gone_sources(&sources, &path, signposts::prose(&page)));
         found.extend(signposts::idle_filters(&sources, &path, lines));
     }
     for RustFile { path, text, .. } in &sources {
         found.extend(signposts::gone_paths(&root, path, signposts::documentation(text)));
+        found.extend(signposts::gone_sources(&sources, path, signposts::documentation(text)));
         found.extend(signposts::idle_filters(&sources, path, signposts::documentation(text)));
     }
     assert_none(&found);

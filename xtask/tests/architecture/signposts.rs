@@ -76,6 +76,28 @@ pub(crate) fn gone_paths<'a>(
     violations
 }
 
+/// Source files between code marks in `text`, by the last part of their path, that are no end of a
+/// path of `sources`.
+pub(crate) fn gone_sources<'a>(
+    sources: &[RustFile],
+    path: &str,
+    text: impl Iterator<Item = (usize, &'a str)>,
+) -> Vec<Violation> {
+    let is_path = |c: char| c.is_ascii_alphanumeric() || "_-./".contains(c);
+    let is_there = |word: &str| sources.iter().any(|file| file.path.ends_with(&format!("/{word}")));
+    let mut violations = Vec::new();
+    for (line, text) in paragraphs(text) {
+        for word in text.split('`').skip(1).step_by(2) {
+            let is_whole = FOLDERS.iter().any(|folder| word.starts_with(folder));
+            let is_named = word.ends_with(".rs") && word.contains('/') && word.chars().all(is_path);
+            if is_named && !is_whole && !is_there(word) {
+                violations.push(format!("{path}:{line}: no source file `{word}`"));
+            }
+        }
+    }
+    violations
+}
+
 /// Calls of `cargo test` in `text` whose filter picks no test of the crate that they name: it is in
 /// no path of a file with tests, and in no name of a test there.
 pub(crate) fn idle_filters<'a>(
@@ -212,5 +234,13 @@ mod tests {
             "/// `docs/gone.md`, `docs/`, `docs/NAME*` and `xtask/src/main.rs`\nlet a = 1;\n";
         let found = gone_paths(&workspace(), "xtask/src/lib.rs", documentation(text));
         assert_eq!(found, ["xtask/src/lib.rs:1: nothing at `docs/gone.md`"]);
+    }
+
+    #[test]
+    fn a_source_file_that_is_gone_is_found() {
+        let sources = [RustFile::new("crates/a/src/path/trace.rs", "")];
+        let page = "`path/trace.rs` and `trace.rs`, `stats/trace.rs`\n";
+        let found = gone_sources(&sources, "a.md", page.lines().enumerate());
+        assert_eq!(found, ["a.md:0: no source file `stats/trace.rs`"]);
     }
 }

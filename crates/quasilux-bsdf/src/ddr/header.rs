@@ -187,7 +187,7 @@ fn one_of<T: Copy>(
         .ok_or_else(|| ParseError::new(word.at, quoted(word.text), expected))
 }
 
-/// A count and so many ascending angles in degrees, from 0 to `last_rad`.
+/// A count and this many ascending angles in degrees, from 0 to `last_rad`.
 fn angles(words: &mut Words<'_>, name: &str, last_rad: f64) -> Result<Vec<f64>, ParseError> {
     let word = words.next("a count of angles")?;
     let count = word.number("a count of angles")?.value;

@@ -18,7 +18,7 @@ impl TreeBuilder {
         Self { incident_axes, nodes: vec![Node::default()], height: 0 }
     }
 
-    /// The same with room for so many nodes, and no more.
+    /// The same with room for this many nodes, and no more.
     fn with_room(incident_axes: usize, nodes: usize) -> Self {
         let mut builder = Self::new(incident_axes);
         builder.nodes.reserve_exact(nodes);

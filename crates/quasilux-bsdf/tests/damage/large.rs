@@ -3,7 +3,7 @@
 
 use std::fmt::Write;
 
-/// The name of a file, and what makes one of about so many bytes.
+/// The name of a file, and what makes one of about this many bytes.
 type Kind = (&'static str, fn(usize) -> Vec<u8>);
 
 /// A file of each kind.

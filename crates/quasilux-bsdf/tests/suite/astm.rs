@@ -8,7 +8,7 @@ use quasilux_bsdf::{
 };
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// A file with `phi_i` half a turn, exits over half a turn and steps of so many degrees.
+/// A file with `phi_i` half a turn, exits over half a turn and steps of this many degrees.
 fn file(f: Scattering, step: u32) -> String {
     let mut text =
         "Source: closed form\nNUM_POINTS 1\nVARS theta_i,phi_i,theta_s,phi_s,BRDF\n".to_owned();

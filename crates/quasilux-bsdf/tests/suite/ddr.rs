@@ -8,7 +8,7 @@ use quasilux_bsdf::{BsdfFormat, Distribution, ScatteringMode, Side, read_bsdf_na
 use quasilux_stats::least_squares_slope;
 use std::f64::consts::PI;
 
-/// The table of a surface, from a file of so many degrees at the specular direction.
+/// The table of a surface, from a file of this many degrees at the specular direction.
 pub(super) fn table(f: Scattering, step: f64) -> Distribution {
     let read =
         read_ddr(ddr(f, &SpecularGrid::with_step(step)).as_bytes(), ScatteringMode::Reflection);

@@ -63,7 +63,7 @@ enum Boxes {
     /// Each band of the full Klems basis in two halves of equal projected solid angle, the azimuth
     /// in 480 parts: patches are centred at azimuth 0.
     Klems,
-    /// Squares, so many a side, in a frame turned by that azimuth.
+    /// Squares, this many a side, in a frame turned by that azimuth.
     Squares { turn_rad: f64, side: usize },
     /// Rings of equal width in the sine, the azimuth in 2^17 parts: a tree turned round has edges
     /// between them.

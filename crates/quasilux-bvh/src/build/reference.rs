@@ -100,7 +100,7 @@ impl Reference {
     }
 }
 
-/// A reference to each triangle, and after them room for so many more.
+/// A reference to each triangle, and after them room for this many more.
 pub(crate) fn all(corners: &[[DVec3; 3]], frame: &Frame, spare: usize) -> Vec<Reference> {
     let of = |(triangle, corners): (usize, &[DVec3; 3])| {
         let [a, b, c] = corners.map(|corner| frame.point(corner).as_vec3a());

@@ -148,7 +148,7 @@ impl SpatialSplit {
 }
 
 impl Side {
-    /// The cost of this side with so many references fewer.
+    /// The cost of this side with this many references fewer.
     fn cost(&self, fewer: u32) -> f32 {
         self.bounds.half_area() * blocks(self.count.saturating_sub(fewer))
     }

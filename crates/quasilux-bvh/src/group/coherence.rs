@@ -34,9 +34,9 @@ pub(crate) struct Heading {
 /// What the next shots are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum RayRun {
-    /// So many that belong together.
+    /// This many that belong together.
     Coherent(usize, Heading),
-    /// So many that do not.
+    /// This many that do not.
     Incoherent(usize),
 }
 

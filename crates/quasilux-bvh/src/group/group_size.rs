@@ -17,7 +17,7 @@ pub(crate) const BLOCK: usize = 4;
 /// What eight rays cost alone.
 const ALONE: usize = 400;
 
-/// Where not even small groups go together, so many rays go alone before the next attempt.
+/// Where not even small groups go together, this many rays go alone before the next attempt.
 const SINGLE_RAYS_AFTER_FAILURE: usize = 4 * MAX_GROUP;
 
 /// The rays of a group are too far apart to be traced together.
@@ -39,12 +39,12 @@ impl GroupSize {
         Self { most: MAX_GROUP, pause: 0 }
     }
 
-    /// So many rays may go together.
+    /// This many rays may go together.
     pub(crate) const fn most(&self) -> usize {
         self.most
     }
 
-    /// What a group of so many vectors of rays may cost.
+    /// What a group of this many vectors of rays may cost.
     pub(crate) const fn limit(vectors: usize) -> usize {
         vectors * ALONE
     }

@@ -13,7 +13,7 @@ const SCALES: [f64; 6] = [1e-6, 1e-3, 1.0, 1e3, 1e6, 1e9];
 const OFFSETS: [DVec3; 3] =
     [DVec3::ZERO, DVec3::new(0.1, -20.0, 3.0), DVec3::new(4e6, -5e6, 333.3)];
 
-/// The unit cube, closed, each side a grid of so many squares a side, its vertices shared to the
+/// The unit cube, closed, each side a grid of this many squares a side, its vertices shared to the
 /// last bit.
 fn room(side: usize) -> Triangles {
     let at = |i: usize| i as f64 / side as f64;

@@ -138,7 +138,7 @@ pub(crate) fn tilted_plane(side: usize) -> Triangles {
     halves.collect()
 }
 
-/// Each triangle so many times, in all orders of corners.
+/// Each triangle this many times, in all orders of corners.
 pub(crate) fn copies(mesh: &Triangles, times: usize) -> Triangles {
     let copies = (0..times)
         .flat_map(|i| mesh.iter().map(move |&[a, b, c]| [[a, b, c], [b, c, a], [a, c, b]][i % 3]));

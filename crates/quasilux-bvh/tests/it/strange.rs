@@ -5,7 +5,7 @@ use crate::rays::bits;
 use glam::DVec3;
 use quasilux_bvh::{Ray, RayQuery, SimdLevel, TriangleBvh};
 
-/// So many of the same ray are traced as a group, and one alone.
+/// This many of the same ray are traced as a group, and one alone.
 const BATCHES: [usize; 2] = [1, 24];
 
 /// A tree with places without a child, one with few of them, and one without triangles.

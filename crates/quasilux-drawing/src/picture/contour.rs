@@ -147,9 +147,9 @@ impl Field {
     }
 }
 
-/// Values at the nodes and between them, each interval in so many pieces: cubic, with the slopes at
-/// the nodes of H. Akima (Journal of the ACM 17, 1970), who weights those on both sides by how much
-/// the others bend, so that a step does not swing. Next to a hole the slope is that of the
+/// Values at the nodes and between them, each interval in this many pieces: cubic, with the slopes
+/// at the nodes of H. Akima (Journal of the ACM 17, 1970), who weights those on both sides by how
+/// much the others bend, so that a step does not swing. Next to a hole the slope is that of the
 /// interval.
 fn finer(nodes: &[f64], values: &[f64], pieces: usize) -> Vec<f64> {
     let last = nodes.len() - 1;

@@ -55,7 +55,7 @@ impl FalseColourScale {
     }
 }
 
-/// So many colours at equal distances along the scale, both ends among them.
+/// This many colours at equal distances along the scale, both ends among them.
 #[must_use]
 pub fn false_colours(count: usize) -> Vec<Colour> {
     let last = count.saturating_sub(1).max(1) as f64;

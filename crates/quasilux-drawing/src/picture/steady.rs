@@ -96,7 +96,7 @@ fn square(x: f64) -> f64 {
 /// A cell in its row or column.
 #[derive(Clone, Copy)]
 struct Neighbours {
-    /// Its place there, of so many.
+    /// Its place there, of this many.
     at: usize,
     count: usize,
     /// From one to the next in the field.

@@ -5,7 +5,7 @@ use crate::angles::{ROUNDING_DEG, check_ascending, radians, snapped};
 use crate::warning::{WarningKind, Warnings};
 use quasilux_text::{Number, ParseError, Position};
 
-/// The gap that closes the turn may be as wide as so many of the others.
+/// The gap that closes the turn may be as wide as this many of the others.
 const WIDEST_GAP: f64 = 1.5;
 
 /// The planes that a file stores, in its order.

@@ -104,7 +104,7 @@ fn resampled(photometry: &Photometry, writer: &mut Writer) -> Grid {
     grid
 }
 
-/// Intensities at so many planes around, and so many steps from nadir to zenith.
+/// Intensities at this many planes around, and so many steps from nadir to zenith.
 fn sampled(photometry: &Photometry, [planes, angles]: [usize; 2]) -> Grid {
     let even = |steps: usize, end: f64| -> Vec<f64> {
         (0..=steps).map(|i| i as f64 / steps as f64 * end).collect()

@@ -3,11 +3,11 @@
 use super::rows::{Part, Sequence};
 use quasilux_sampling::PointSet;
 
-/// So many points are made at once.
+/// This many points are made at once.
 const POINTS: usize = 256;
-/// So many dimensions at most are made before they are written: their columns stay in the cache.
+/// This many dimensions at most are made before they are written: their columns stay in the cache.
 const TILE: usize = 64;
-/// So many coordinates of a row are gathered at once.
+/// This many coordinates of a row are gathered at once.
 const LINE: usize = 8;
 
 /// One coordinate of some points, and a cache line that is not used: columns at distances of a

@@ -10,7 +10,7 @@ use quasilux_sampling::warp::sample_normal;
 use std::ops::Range;
 use std::thread;
 
-/// The sums over so many points are made as one, whoever makes them: results do not depend on the
+/// The sums over this many points are made as one, whoever makes them: results do not depend on the
 /// number of threads.
 const BLOCK: usize = 256;
 

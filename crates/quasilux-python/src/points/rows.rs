@@ -2,7 +2,7 @@
 
 use std::thread;
 
-/// Each thread gets at least so many coordinates, to repay its start.
+/// Each thread gets at least this many coordinates, to repay its start.
 const MIN_WORK: usize = 1 << 17;
 
 /// A sequence that writes points into rows.
@@ -20,7 +20,7 @@ pub(super) struct Part<'a> {
 }
 
 impl<'a> Part<'a> {
-    /// Parts of `count` points of so many dimensions.
+    /// Parts of `count` points of this many dimensions.
     pub(super) fn split(
         self,
         dimensions: usize,
@@ -33,7 +33,7 @@ impl<'a> Part<'a> {
         })
     }
 
-    /// Writes the points, by at most so many threads.
+    /// Writes the points, by at most this many threads.
     pub(super) fn fill(self, sequence: &impl Sequence, dimensions: usize, workers: usize) {
         if dimensions == 0 {
             return;

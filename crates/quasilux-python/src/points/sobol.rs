@@ -17,13 +17,13 @@ const DIRECTION_NUMBERS: &str = include_str!("joe_kuo_21201.txt");
 /// How many dimensions there are.
 pub(super) const DIMENSIONS: usize = 21_201;
 
-/// So many points at least are made at once: an aligned block of indices.
+/// This many points at least are made at once: an aligned block of indices.
 const BLOCK: usize = 256;
-/// So many coordinates at least are made at once.
+/// This many coordinates at least are made at once.
 const COORDINATES: usize = 2048;
-/// So many dimensions at most are made at once: the digits of a block stay in the cache.
+/// This many dimensions at most are made at once: the digits of a block stay in the cache.
 const TILE: usize = 64;
-/// So many points at most are made of a tile before the next, where there are several.
+/// This many points at most are made of a tile before the next, where there are several.
 const POINTS_OF_TILE: usize = 16 * BLOCK;
 
 /// A Sobol' sequence of some dimensions.

@@ -5,7 +5,7 @@ use quasilux_scene::{Blinds, BlindsControl, BlindsGroup, Scene, Sensor};
 use quasilux_transport::{Settings, Sunlight, sunlit_points};
 use std::collections::HashMap;
 
-/// Sunlight that has blinds closed: on more than this share of the points more than so many lx
+/// Sunlight that has blinds closed: on more than this share of the points more than this many lx
 /// (IES LM-83).
 const SUNLIT_SHARE: f64 = 0.02;
 const SUNLIT_LX: f64 = 1000.0;

@@ -20,7 +20,7 @@ pub struct AnnualRun {
     pub scene_sha256: String,
     /// How long it took, in s.
     pub seconds: f64,
-    /// On so many threads.
+    /// On this many threads.
     pub threads: usize,
     /// The settings.
     pub settings: Settings,

@@ -237,7 +237,7 @@ fn daylight_dims_lamps() {
     assert_eq!((full_kwh, dimmed_kwh.half_width), (19.0, Some(0.0)));
     let mut noisy = Dimming::begin(light, &scene_of_points(1));
     noisy.add(0, &[vec![100.0, 900.0, 0.0], vec![140.0, 900.0, 0.0]], t);
-    // Means of 100 and 140 lx are 20 lx from their mean: so many times the slope is the error.
+    // Means of 100 and 140 lx are 20 lx from their mean: this many times the slope is the error.
     let error = 20.0 / 400.0 * 0.9;
     let found = noisy.energy(&calendar).dimmed_kwh.half_width.unwrap();
     assert!((found / (t.unwrap() * error) - 1.0).abs() < 1e-9, "{found}");

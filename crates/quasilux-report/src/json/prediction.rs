@@ -6,7 +6,7 @@ use serde::Serialize;
 
 /// The object `prediction` of `run`: `slope`, the measured exponent of N in half-widths; the
 /// `samples`, `rays`, `seconds` and `bytes` of memory at which the tolerance should be reached, or
-/// was, whatever limit came first, the whole program on so many threads; `half_width_ratio`,
+/// was, whatever limit came first, the whole program on this many threads; `half_width_ratio`,
 /// half-widths over what had been predicted for them two checkpoints before, a geometric mean over
 /// the run.
 #[derive(Serialize)]

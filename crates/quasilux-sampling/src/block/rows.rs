@@ -10,9 +10,9 @@ use crate::point_set::PointSet;
 use crate::randomization::{OwenKey, OwenLanes, Randomization, digital_shift, rotate_word};
 use crate::unit::{unit_from_digits, unit_from_word};
 
-/// So many coordinates are made at once.
+/// This many coordinates are made at once.
 const LANES: usize = 8;
-/// Patterns of words have at least so many coordinates.
+/// Patterns of words have at least this many coordinates.
 const MIN_PATTERN: usize = 64;
 
 /// Randomises binary digits of consecutive dimensions, point after point.
@@ -75,7 +75,7 @@ impl PointSet {
     }
 }
 
-/// After so many coordinates dimensions and vectors begin together again.
+/// After this many coordinates dimensions and vectors begin together again.
 fn period(dimensions: usize) -> usize {
     let shared = 1 << dimensions.trailing_zeros().min(LANES.trailing_zeros());
     dimensions * (LANES / shared)

@@ -3,7 +3,7 @@
 use super::radical_inverse::radical_inverse;
 use crate::unit::ONE_BELOW;
 
-/// Digits are taken in groups with at most so many values.
+/// Digits are taken in groups with at most this many values.
 const MAX_VALUES: u32 = 256;
 
 /// A base with what its radical inverses take, but for base 2, where bits are reversed: a table of

@@ -83,7 +83,7 @@ impl<'b> Accessor<'b> {
         self.count
     }
 
-    /// Position number `i`, if there are so many.
+    /// Position number `i`, if there are this many.
     pub(super) fn position(&self, i: usize) -> Option<DVec3> {
         if i >= self.count {
             return None;

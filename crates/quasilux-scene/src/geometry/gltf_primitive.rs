@@ -66,7 +66,7 @@ pub(super) fn read(
     Ok(0)
 }
 
-/// The number of triangles that so many corners make; corners left over are ignored [3.7.2.1].
+/// The number of triangles that this many corners make; corners left over are ignored [3.7.2.1].
 fn triangles(mode: Mode, corners: usize) -> usize {
     match mode {
         Mode::TriangleStrip | Mode::TriangleFan => corners.saturating_sub(2),

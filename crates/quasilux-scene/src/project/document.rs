@@ -199,7 +199,7 @@ impl<'a> Section<'a> {
 }
 
 impl<'a> Section<'a> {
-    /// One table, or an array of so many tables at most; none if the key is not given.
+    /// One table, or an array of this many tables at most; none if the key is not given.
     pub(super) fn table_or_tables(
         &self,
         key: &'a str,

@@ -5,7 +5,7 @@ use crate::point::SkyPoint;
 use libm::{acos, cos, sin};
 use std::f64::consts::{FRAC_1_PI, TAU};
 
-/// A pixel counts as bright from so many times the mean luminance of the sky on.
+/// A pixel counts as bright from this many times the mean luminance of the sky on.
 const BRIGHT: f64 = 10.0;
 
 /// A pixel that is much brighter than the sky around it.

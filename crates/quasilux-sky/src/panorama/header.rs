@@ -127,7 +127,7 @@ impl Line {
         }
     }
 
-    /// Positive numbers, so many.
+    /// Positive numbers, this many.
     fn factors<const N: usize>(&self, value: &str) -> Result<[f64; N], ParseError> {
         let numbers: Vec<f64> =
             value.split_whitespace().map_while(|number| number.parse().ok()).collect();

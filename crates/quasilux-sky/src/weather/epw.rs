@@ -29,7 +29,7 @@ const MISSING_RADIATION: f64 = 9999.0;
 const MISSING_BELOW_ZERO: f64 = -99.0;
 const MISSING_TEMPERATURE: f64 = 99.9;
 
-/// In so many days some are clear.
+/// In this many days some are clear.
 const DAYS_THAT_TELL: usize = 28;
 /// Clear hours have more than this part of what the sun gives above the air, with the sun this
 /// high.

@@ -5,7 +5,7 @@ use crate::made::{DIFFUSE, DIRECT, Exposure, File, MINUTE, Made, Span, Station, 
 use quasilux_sky::{ParsedWeather, Weather, WeatherWarning};
 use quasilux_stats::SplitMix64;
 
-/// So many from a first one on, or ten times as many.
+/// This many from a first one on, or ten times as many.
 fn seeds(first: u64, count: u64) -> std::ops::Range<u64> {
     let factor = if quasilux_stats::deep() { 10 } else { 1 };
     first..first + factor * count
@@ -17,7 +17,7 @@ fn year(dice: &mut SplitMix64, most_deg: f64) -> Made {
     Made::random(dice, place, Span::YEAR)
 }
 
-/// Some weeks of any season, with so many intervals an hour.
+/// Some weeks of any season, with this many intervals an hour.
 fn season(dice: &mut SplitMix64, an_hour: u32, days: u32) -> Made {
     let place = Station::random(dice, 60.0);
     let first = dice.below(365 - days as usize) as u32;

@@ -61,7 +61,7 @@ fn shorter_intervals_are_told_by_the_minute() {
     assert_eq!(hour.light, Some(WeatherLight { direct: 150.0, diffuse: 25.0 }));
 }
 
-/// Lines for 60 days of June and July, some of them clear, so many an hour; light by the hour of
+/// Lines for 60 days of June and July, some of them clear, this many an hour; light by the hour of
 /// the day, where it is up to 900 and 100 W/m2, in parts of `unit`.
 fn summer(an_hour: u32, unit: f64) -> Vec<String> {
     let mut lines = Vec::new();

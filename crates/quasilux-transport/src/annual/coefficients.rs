@@ -7,12 +7,12 @@ use super::mesh::{Mesh, Share, Spacing};
 use super::pilot::sun_ways;
 use crate::context::{Context, Stream};
 use crate::lights::Suns;
-use crate::path::daylight::{DaylightSearch, FromOutside, Whence};
+use crate::path::daylight::{DaylightSearch, FromOutside, OutsideSource};
 use crate::path::daylight_paths::{TargetReplicate, trace};
 use crate::path::wave::PathWave;
+use crate::sensors::Target;
 use crate::spectrum::Spectrum;
 use crate::stats::tally::checked_quanta;
-use crate::stats::targets::Target;
 use quasilux_sampling::Sampler;
 use std::ops::Range;
 use std::sync::Arc;
@@ -149,11 +149,11 @@ impl Sums {
 
     fn add(&mut self, meshes: &Meshes, FromOutside { whence, light, .. }: FromOutside) {
         let (direction, is_mirrored) = match whence {
-            Whence::Sun(sun, _) => {
+            OutsideSource::Sun(sun, _) => {
                 return add(&mut self.suns[sun as usize], light, &mut self.invalid);
             }
-            Whence::Outside(direction) => (direction, false),
-            Whence::Mirrored(direction) => (direction, true),
+            OutsideSource::Outside(direction) => (direction, false),
+            OutsideSource::Mirrored(direction) => (direction, true),
         };
         if is_mirrored {
             // Nobody can ask for the sun here: its light is found by how much comes from around it.

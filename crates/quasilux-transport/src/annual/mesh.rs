@@ -42,7 +42,7 @@ struct Ring {
     azimuth: f64,
 }
 
-/// One over so many of the second difference sharpens.
+/// One over this many of the second difference sharpens.
 const SHARPENING: f64 = 12.0;
 
 /// A node with its share of a direction.

@@ -2,14 +2,14 @@
 
 use crate::context::Context;
 use crate::lights::{SunWays, Suns};
-use crate::path::daylight::{DaylightSearch, Whence};
+use crate::path::daylight::{DaylightSearch, OutsideSource};
 use crate::path::daylight_paths::{TargetReplicate, trace};
 use crate::path::wave::PathWave;
+use crate::sensors::Target;
 use crate::spectrum::Spectrum;
-use crate::stats::targets::Target;
 use rayon::prelude::*;
 
-/// So many points, each with so many paths, say where the sun shines.
+/// This many points, each with this many paths, say where the sun shines.
 const PILOT_POINTS: usize = 64;
 const PILOT_PATHS: u64 = 64;
 
@@ -28,7 +28,7 @@ pub(super) fn sun_ways<S: Spectrum>(
         let of = TargetReplicate { number, target: &targets[number], replicate };
         let mut ways = SunWays::default();
         trace(context, search, of, 0..PILOT_PATHS, &mut PathWave::default(), |found| {
-            if let Whence::Sun(_, place) = found.whence {
+            if let OutsideSource::Sun(_, place) = found.whence {
                 ways.note(place, found.light > 0.0);
             }
         });

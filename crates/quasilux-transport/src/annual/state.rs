@@ -6,18 +6,18 @@ use super::hours::HourTable;
 use super::results::{PointOfYear, YearWork, intervals_lx};
 use super::sun_disks::{ShiningSun, SunDisks, SunLight};
 use crate::context::Context;
+use crate::control::watch::split;
 use crate::lights::Suns;
 use crate::path::daylight::DaylightSearch;
 use crate::path::daylight_paths::TargetReplicate;
 use crate::path::trace::outside::most_of_a_path_lx;
 use crate::path::wave::PathWave;
+use crate::sensors::Target;
 use crate::settings::Settings;
 use crate::spectrum::Spectrum;
 use crate::stats::interval::{Interval, t_quantile_for};
 use crate::stats::sequential::Stopping;
-use crate::stats::targets::Target;
 use crate::stats::unseen::unseen_lx;
-use crate::stats::watch::split;
 use quasilux_scene::Environment;
 use quasilux_sky::{TabulatedSky, WeatherSky};
 use rayon::prelude::*;
@@ -174,7 +174,7 @@ impl<'y, S: Spectrum> State<'y, S> {
         points
     }
 
-    /// Traces points up to so many paths of each replicate.
+    /// Traces points up to this many paths of each replicate.
     fn trace(
         &self,
         points: &mut [&mut PointInWork<'_>],
@@ -249,7 +249,7 @@ impl<'y, S: Spectrum> State<'y, S> {
         }
     }
 
-    /// After so many paths of each replicate: how many times what one path finds at most may come
+    /// After this many paths of each replicate: how many times what one path finds at most may come
     /// by ways on which none lay. A path that finds something outside has left, so it has one
     /// sample there; what vertices ask for beside that makes no trials (`docs/unseen.md`).
     fn unseen_of_a_path(&self, paths: u64) -> f32 {

@@ -8,9 +8,9 @@
 use crate::context::{Context, Stream};
 use crate::path::daylight_paths::TargetReplicate;
 use crate::purpose::Purpose;
+use crate::sensors::Target;
 use crate::spectrum::Spectrum;
 use crate::stats::tally::checked_quanta;
-use crate::stats::targets::Target;
 use crate::world::frame::Frame;
 use crate::world::vertex::Vertex;
 use crate::world::visibility::{Answer, LightSample, ShadowQueue};
@@ -120,7 +120,7 @@ impl SunDisks {
         self.seen.iter().map(glance)
     }
 
-    /// Has a replicate look at them as often as so many paths want; returns the rays.
+    /// Has a replicate look at them as often as this many paths want; returns the rays.
     pub(super) fn trace<S: Spectrum>(
         &mut self,
         context: &Context<'_, S>,

@@ -3,8 +3,8 @@
 use super::sun_disks::{ShiningSun, SunDisks, SunLight, ask};
 use super::year::lit;
 use crate::context::Context;
+use crate::sensors::targets;
 use crate::settings::Settings;
-use crate::stats::targets::targets;
 use crate::world::vertex::Vertex;
 use crate::world::visibility::{Answer, ShadowQueue};
 use glam::DVec3;
@@ -19,7 +19,7 @@ const SAME: f64 = 1e-3;
 /// Sunlight that counts.
 #[derive(Clone, Copy, Debug)]
 pub struct Sunlight<'s> {
-    /// More than so many lx straight from the sun.
+    /// More than this many lx straight from the sun.
     pub above_lx: f64,
     /// Of those alone of which another room has not the same: what stands before the sun there and
     /// not here.

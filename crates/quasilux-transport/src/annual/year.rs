@@ -3,10 +3,10 @@
 use super::results::{PointOfYear, YearProgress, YearWork};
 use super::state::{State, StateHours};
 use crate::context::Context;
+use crate::control::observer::Control;
+use crate::sensors::targets;
 use crate::settings::Settings;
 use crate::spectrum::{Spectrum, is_grey};
-use crate::stats::observer::Control;
-use crate::stats::targets::targets;
 use quasilux_scene::{Environment, Rgb, Scene};
 use quasilux_sky::{Distribution, Sky, SkyLevel, WeatherSky};
 use rayon::prelude::*;

@@ -1,6 +1,6 @@
 //! What a run has summed so far, as bytes in the postcard format, for checkpoints and for parts of
-//! a run. Here are the bytes alone: the order of a state is made in `run::simulate`, `stats::watch`
-//! and by each estimator.
+//! a run. Here are the bytes alone: the order of a state is made in `run::simulate`,
+//! `control::watch` and by each estimator.
 //!
 //! All that grows with a run is integers, so the bytes of a run that was interrupted lead to the
 //! same bits, and the sums of several index ranges add up to those of all of them, in any order.
@@ -12,7 +12,7 @@
 //! part of a state, and so are the checkpoints that the next prediction is made from. Parts have no
 //! converged targets.
 //!
-//! Bytes of any origin give values or an error: a claimed length takes no memory before so many
+//! Bytes of any origin give values or an error: a claimed length takes no memory before this many
 //! bytes are there (serde allocates at most 1 MiB ahead of the elements that it reads).
 //! `docs/formats.md` describes the whole.
 

@@ -1,4 +1,4 @@
-//! Blocks of a run that other processes trace ([`crate::stats::workers`]): what is asked of them.
+//! Blocks of a run that other processes trace ([`crate::control::workers`]): what is asked of them.
 
 use serde::{Deserialize, Serialize};
 

@@ -1,11 +1,11 @@
 //! Direct light of the point-like lights at sensor points, computed without sampling.
 
 use crate::context::Context;
+use crate::control::watch::{POINTS_AT_ONCE, Watch};
+use crate::sensors::Target;
 use crate::spectrum::Spectrum;
-use crate::stats::targets::Target;
-use crate::stats::watch::{POINTS_AT_ONCE, Watch};
 use crate::world::vertex::Vertex;
-use crate::world::visibility::{Receiver, ShadowQueue};
+use crate::world::visibility::{LightRequest, ShadowQueue};
 
 /// Targets whose light from the point-like lights is computed together.
 const TARGETS: usize = 256;
@@ -76,11 +76,12 @@ pub(crate) fn computed_light<S: Spectrum>(
         let receiver = |(who, target): (u32, &Target)| match *target {
             Target::Point { position, normal: n } => {
                 let from = context.world.ray_origin_of_sensor(position, n);
-                Some(Receiver { who, vertex: Vertex::sensor(from, n) })
+                Some(LightRequest { who, vertex: Vertex::sensor(from, n) })
             }
             Target::Cell { .. } => None,
         };
-        let receivers: Vec<Receiver<'_, S>> = (0..).zip(*targets).filter_map(receiver).collect();
+        let receivers: Vec<LightRequest<'_, S>> =
+            (0..).zip(*targets).filter_map(receiver).collect();
         let mut shadows = ShadowQueue::default();
         shadows.max_bounces = context.max_bounces.unwrap_or(u32::MAX);
         let mut receive =

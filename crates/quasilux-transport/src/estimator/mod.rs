@@ -9,6 +9,7 @@ pub(crate) mod progress;
 
 use crate::codec::{Reader, StateError, Writer};
 use crate::context::Context;
+use crate::control::watch::Watch;
 use crate::estimator::bidirectional::BidirectionalEstimator;
 use crate::estimator::block::BlockFrame;
 use crate::estimator::path_estimator::PathEstimator;
@@ -17,7 +18,6 @@ use crate::settings::{EstimatorKind, Settings};
 use crate::spectrum::Spectrum;
 use crate::stats::decisions::Decisions;
 use crate::stats::estimates::Estimates;
-use crate::stats::watch::Watch;
 use quasilux_scene::Scene;
 use std::ops::Range;
 

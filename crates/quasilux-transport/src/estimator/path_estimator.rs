@@ -9,15 +9,17 @@ mod state;
 
 use crate::codec::{Reader, StateError, Writer};
 use crate::context::{Context, Stream};
+use crate::control::watch::Watch;
 use crate::estimator::Estimator;
 use crate::estimator::block::BlockFrame;
 use crate::estimator::exact::{ComputedLight, Exact, computed_light};
 use crate::estimator::progress::TargetProgress;
 use crate::path::end::{PathEnd, Prepared};
-use crate::path::sections::{PathSums, Piece, Section, WorkCounts, trace_sections};
+use crate::path::path_batch::{PathBatch, PathSums, Piece, WorkCounts, trace_batches};
 use crate::path::wave::PathWave;
 use crate::photon::caustics::CausticMap;
 use crate::photon::counts::PhotonCounts;
+use crate::sensors::{Target, by_sensor, targets};
 use crate::settings::Settings;
 use crate::spectrum::Spectrum;
 use crate::stats::caveat::Caveat;
@@ -25,8 +27,6 @@ use crate::stats::decisions::Decisions;
 use crate::stats::estimates::{Dimensions, Estimates, SensorEstimates, TermEstimates};
 use crate::stats::scores::Scores;
 use crate::stats::tally::{Quantum, Sum};
-use crate::stats::targets::{Target, by_sensor, targets};
-use crate::stats::watch::Watch;
 use quasilux_scene::Scene;
 use resolved::samples_direct;
 use serde::{Deserialize, Serialize};
@@ -148,21 +148,21 @@ impl<'a, S: Spectrum> PathEstimator<'a, S> {
     ) -> Piece {
         let each = indices.end - indices.start;
         let numbers = piece.start / each..piece.end.div_ceil(each);
-        let sections: Vec<Section<'_, S>> = numbers
+        let batches: Vec<PathBatch<'_, S>> = numbers
             .map(|number| {
                 let first = indices.start + piece.start.saturating_sub(number * each);
                 let end = indices.start + (piece.end - number * each).min(each);
-                self.section(number, first..end)
+                self.batch(number, first..end)
             })
             .collect();
-        trace_sections(self.context, &sections, self.quantum, wave)
+        trace_batches(self.context, &batches, self.quantum, wave)
     }
 
     /// The paths `indices` of the pair `number` of a growing target and a replicate.
-    fn section(&self, number: u64, indices: Range<u64>) -> Section<'_, S> {
+    fn batch(&self, number: u64, indices: Range<u64>) -> PathBatch<'_, S> {
         let target = self.progress.growing()[(number / u64::from(self.replicates)) as usize];
         let replicate = (number % u64::from(self.replicates)) as u32;
-        Section {
+        PathBatch {
             number: number as usize,
             target: self.targets[target],
             points: self.context.points(replicate, Stream::Paths(target as u64)),
@@ -273,7 +273,7 @@ impl<S: Spectrum> PathEstimator<'_, S> {
 
 impl<S: Spectrum> Estimator for PathEstimator<'_, S> {
     fn advance(&mut self, samples: u64, watch: &mut Watch<'_>) -> bool {
-        watch.foresee(self.work_up_to(samples));
+        watch.expect_work(self.work_up_to(samples));
         self.serve(samples, watch) && self.gather(samples, watch)
     }
 

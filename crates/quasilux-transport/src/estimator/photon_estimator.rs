@@ -13,6 +13,9 @@ pub(crate) use receivers::Receivers;
 
 use crate::codec::{Reader, StateError, Stored, Writer, digest};
 use crate::context::{Context, Stream};
+use crate::control::observer::Snapshot;
+use crate::control::watch::{BlockCounts, Watch};
+use crate::control::workers::BlockSize;
 use crate::estimator::Estimator;
 use crate::estimator::block::BlockFrame;
 use crate::importance::{Plan, WeightWindows};
@@ -21,17 +24,14 @@ use crate::photon::counts::PhotonCounts;
 use crate::photon::map::QUANTA_PER_PHOTON;
 use crate::photon::order::PhotonOrder;
 use crate::photon::receiver::{PhotonReceiver, SeenPhoton};
-use crate::photon::trace::{Lead, Source};
+use crate::photon::trace::{PhotonSetup, Source};
+use crate::sensors::{by_sensor, snapshot};
 use crate::settings::Settings;
 use crate::spectrum::Spectrum;
 use crate::stats::decisions::Decisions;
 use crate::stats::estimates::{Dimensions, Estimates, SensorEstimates, TermEstimates};
-use crate::stats::observer::Snapshot;
 use crate::stats::point_status::Evidence;
 use crate::stats::tally::checked_quanta;
-use crate::stats::targets::{by_sensor, snapshot};
-use crate::stats::watch::{BlockCounts, Watch};
-use crate::stats::workers::BlockSize;
 use crate::world::Interaction;
 use crate::world::flight::Flight;
 use quasilux_scene::Scene;
@@ -99,7 +99,7 @@ impl<'a, S: Spectrum> PhotonEstimator<'a, S> {
             replicates,
             indices,
             order,
-            lead: Lead::by_chance(Source::Lights, windows),
+            setup: PhotonSetup::by_chance(Source::Lights, windows),
         };
         let before = self.samples * counters.len() as u64;
         let look = |emitted: u64| Some(self.snapshot(before + emitted));

@@ -65,7 +65,7 @@ pub struct Explanation {
     /// Sum of all total shares: how many blocks act together on average, 1 where effects just add
     /// (the mean dimension of Liu and Owen 2006, by blocks). `None` where nothing varies.
     pub interacting_blocks: Option<f64>,
-    /// So many first coordinates carry 99 % of the variance, to whole blocks (the effective
+    /// This many first coordinates carry 99 % of the variance, to whole blocks (the effective
     /// dimension in the truncation sense); `None` where it takes those past the last block.
     pub truncation_dimension: Option<u32>,
     /// What the sequence of the run is worth; `None` where nothing is randomised or nothing varies.
@@ -84,8 +84,8 @@ pub enum SampleKind {
 }
 
 impl SampleKind {
-    /// How many samples of their own so many targets have for each index: photons serve all, paths
-    /// one each.
+    /// How many samples of their own this many targets have for each index: photons serve all,
+    /// paths one each.
     fn samples_an_index(self, targets: usize) -> usize {
         match self {
             Self::Photons => 1,
@@ -201,7 +201,7 @@ impl Pilot {
         for (given, counts) in pieces.collect::<Vec<_>>() {
             all += counts;
             for lx in given {
-                // The run counts and reports what is no number.
+                // The run counts and reports NaN.
                 let lx = lx.into_iter().map(|lx| if lx.is_finite() { lx } else { 0.0 });
                 values.iter_mut().zip(lx).for_each(|(of_target, lx)| of_target.push(lx));
             }

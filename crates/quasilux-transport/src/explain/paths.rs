@@ -2,16 +2,16 @@
 
 use super::{Pilot, Points, SampleKind, SampleSource};
 use crate::context::{Context, Stream};
+use crate::control::watch::Watch;
 use crate::estimator::UNSTOPPED;
 use crate::estimator::exact::computed_light;
 use crate::path::end::PathEnd;
-use crate::path::sections::Section;
+use crate::path::path_batch::PathBatch;
 use crate::path::wave::{PathWave, WAVE};
 use crate::photon::caustics::CausticMap;
+use crate::sensors::{Target, targets};
 use crate::settings::Settings;
 use crate::spectrum::Spectrum;
-use crate::stats::targets::{Target, targets};
-use crate::stats::watch::Watch;
 use quasilux_sampling::DimensionHistogram;
 use quasilux_scene::Scene;
 use rayon::prelude::*;
@@ -89,14 +89,14 @@ impl<'s, S: Spectrum> PathSource<'s, S> {
         Some(caustics)
     }
 
-    fn piece(&self, wave: &mut PathWave<S>, section: &Section<'_, S>, given_lx: f64) -> Piece {
-        let paths = wave.trace(self.context, section.starts(self.context));
+    fn piece(&self, wave: &mut PathWave<S>, batch: &PathBatch<'_, S>, given_lx: f64) -> Piece {
+        let paths = wave.trace(self.context, batch.starts(self.context));
         let rays = wave.take_rays();
         let mut piece = Piece { values: Vec::new(), rays, dimensions: DimensionHistogram::new() };
         for mut path in paths {
             let path = path.end();
             let value_lx = given_lx + (path.found.direct + path.found.indirect).luminance();
-            // The run counts and reports what is no number.
+            // The run counts and reports NaN.
             piece.values.push(if value_lx.is_finite() { value_lx } else { 0.0 });
             piece.dimensions.record(path.dimensions);
         }
@@ -118,7 +118,7 @@ impl<S: Spectrum> SampleSource for PathSource<'_, S> {
         let piece = |wave: &mut PathWave<S>, number: u64| {
             let target = &self.targets[(number / pieces_each) as usize];
             let first = number % pieces_each * WAVE;
-            let section = Section {
+            let batch = PathBatch {
                 number: 0,
                 target: target.target,
                 points: points(Stream::Paths(target.number)),
@@ -126,7 +126,7 @@ impl<S: Spectrum> SampleSource for PathSource<'_, S> {
                 caustics: self.caustics.as_ref().and_then(|caustics| caustics.map(0)),
                 indices: first..(first + WAVE).min(samples),
             };
-            self.piece(wave, &section, target.given_lx)
+            self.piece(wave, &batch, target.given_lx)
         };
         let pieces = (0..self.targets.len() as u64 * pieces_each).into_par_iter();
         let pieces: Vec<Piece> = pieces.map_init(PathWave::default, piece).collect();

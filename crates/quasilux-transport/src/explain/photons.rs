@@ -7,7 +7,7 @@ use crate::context::{Context, Stream};
 use crate::estimator::photon_estimator::{self, Receivers};
 use crate::importance::WeightWindows;
 use crate::photon::receiver::{PhotonReceiver, SeenPhoton};
-use crate::photon::trace::{Lead, Source, trace_photon};
+use crate::photon::trace::{PhotonSetup, Source, trace_photon};
 use crate::settings::Settings;
 use crate::spectrum::Spectrum;
 use crate::world::Interaction;
@@ -72,8 +72,8 @@ impl<S: Spectrum> SampleSource for PhotonSource<'_, S> {
             let Self { receivers, readings, .. } = self;
             let mut found = PhotonReadings { receivers, readings, lx: vec![0.0; self.sensors] };
             let sampler = Sampler::new(&points, index);
-            let lead = Lead::by_chance(Source::Lights, self.windows.as_ref());
-            trace_photon(self.context, lead, sampler, &mut found, counts);
+            let setup = PhotonSetup::by_chance(Source::Lights, self.windows.as_ref());
+            trace_photon(self.context, setup, sampler, &mut found, counts);
             found.lx
         })
     }

@@ -9,9 +9,9 @@ use super::survey::{PilotPhoton, Survey};
 use super::weight_windows::{Split, importance_weights, next_squares};
 use crate::codec::Writer;
 use crate::context::Context;
+use crate::sensors::Target;
 use crate::spectrum::Spectrum;
 use crate::stats::efficiency::Performance;
-use crate::stats::targets::Target;
 use crate::world::Interaction;
 use quasilux_sampling::Sampler;
 
@@ -31,7 +31,7 @@ pub(crate) struct Copies {
 }
 
 impl Copies {
-    /// One copy everywhere, after a survey of so many rays.
+    /// One copy everywhere, after a survey of this many rays.
     pub(crate) fn single(rays: u64) -> Self {
         Self { regions: None, by_cell: Vec::new(), rays }
     }

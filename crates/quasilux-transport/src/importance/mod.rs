@@ -26,10 +26,10 @@ pub(crate) use weight_windows::{Split, WeightWindows};
 
 use crate::context::Context;
 use crate::lights::Emitted;
+use crate::sensors::Target;
 use crate::settings::Switch;
 use crate::spectrum::Spectrum;
 use crate::stats::efficiency::Performance;
-use crate::stats::targets::Target;
 use flux_and_importance::FluxAndImportance;
 use quasilux_sampling::Sampler;
 use survey::Survey;

@@ -10,12 +10,12 @@ use crate::bsdf::TransportMode;
 use crate::context::{Context, Stream};
 use crate::importance::cells::{Cells, Regions};
 use crate::lights::Emission;
+use crate::sensors::Target;
 use crate::spectrum::Spectrum;
-use crate::stats::targets::Target;
 use crate::world::Interaction;
 use crate::world::frame::Frame;
 use crate::world::vertex::Vertex;
-use crate::world::visibility::{Receiver, ShadowQueue};
+use crate::world::visibility::{LightRequest, ShadowQueue};
 use glam::DVec3;
 use quasilux_sampling::warp::{invert_cosine_hemisphere, sample_cosine_hemisphere};
 use quasilux_sampling::{Discrete, PointSet, Sampler};
@@ -421,9 +421,9 @@ fn direct_lx<S: Spectrum>(context: &Context<'_, S>, asked: &[(DVec3, DVec3)]) ->
     let mut direct_lx = vec![0.0; asked.len()];
     let receivers = (0..).zip(asked).map(|(who, &(position, n))| {
         let from = context.world.ray_origin_of_sensor(position, n);
-        Receiver { who, vertex: Vertex::sensor(from, n) }
+        LightRequest { who, vertex: Vertex::sensor(from, n) }
     });
-    let receivers: Vec<Receiver<'_, S>> = receivers.collect();
+    let receivers: Vec<LightRequest<'_, S>> = receivers.collect();
     let receive = |who: u32, lx: S, _| direct_lx[who as usize] += lx.luminance();
     context.lights.pointlikes.all(&context.world, &receivers, &mut ShadowQueue::default(), receive);
     direct_lx

@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::scenes::{diffuse, level_grid, point_light, room};
+use crate::sensors::targets;
 use crate::settings::Settings;
-use crate::stats::targets::targets;
 use glam::DVec3;
 
 /// In a long closed room all light that leaves a cell goes somewhere, whichever cells connections

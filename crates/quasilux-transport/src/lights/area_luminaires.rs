@@ -24,8 +24,8 @@ use quasilux_scene::light::Luminaire;
 use quasilux_scene::{Light, Scene};
 use std::f64::consts::PI;
 
-/// Of many so many are asked where a path starts: the choice there has most of the noise, and rays
-/// that start together cost little.
+/// Of many, this many are asked where a path starts: the choice there has most of the noise, and
+/// rays that start together cost little.
 const AT_SENSOR: u32 = 4;
 /// Places along each coordinate from which a shape is probed for surfaces that cut it.
 const PROBES: u32 = 4;
@@ -98,7 +98,7 @@ impl<'a> AreaLuminaires<'a> {
     /// Whether any of them may light the side `n` of a surface at `position`, were nothing in the
     /// way.
     pub(crate) fn may_light(&self, position: DVec3, n: DVec3) -> bool {
-        self.lights.iter().any(|light| light.importance_lx(position, Some(n)) != 0.0)
+        self.lights.iter().any(|light| light.approx_illuminance_lx(position, Some(n)) != 0.0)
     }
 
     /// Whether they are many, so that a choice among them takes coordinates of its own.
@@ -141,7 +141,8 @@ impl<'a> AreaLuminaires<'a> {
         work: &mut ChoiceWork,
     ) -> Option<ChosenPlace> {
         let around = |light: usize, around: &Surroundings| self.lights[light].weight_around(around);
-        let weights = self.lights.iter().map(|light| light.importance_lx(at.position, at.side));
+        let weights =
+            self.lights.iter().map(|light| light.approx_illuminance_lx(at.position, at.side));
         let chosen = self.choice.choose_without_candidates(at, u[0], around, weights, work)?;
         let light = &self.lights[chosen.light];
         let towards = light.centre_direction(at.position);
@@ -153,7 +154,8 @@ impl<'a> AreaLuminaires<'a> {
     /// The probability of the choice of [`Self::choose`].
     pub(crate) fn probability(&self, number: usize, at: Asking) -> f64 {
         let around = |light: usize, around: &Surroundings| self.lights[light].weight_around(around);
-        let weights = self.lights.iter().map(|light| light.importance_lx(at.position, at.side));
+        let weights =
+            self.lights.iter().map(|light| light.approx_illuminance_lx(at.position, at.side));
         self.choice.probability(number, at, around, weights)
     }
 
@@ -181,7 +183,7 @@ impl AreaLuminaire<'_> {
     /// About what it gives to the side `n` of a surface unshadowed, in lx: the light of a point,
     /// the distance softened by the shape's extent, and a share for what the shape has beside its
     /// centre. 0 only where all of the shape is behind the surface; with no side nothing is behind.
-    fn importance_lx(&self, position: DVec3, side: Option<DVec3>) -> f64 {
+    fn approx_illuminance_lx(&self, position: DVec3, side: Option<DVec3>) -> f64 {
         let toward = self.luminaire.position - position;
         if side.is_some_and(|n| n.dot(toward) <= -self.radius_m) {
             return 0.0;

@@ -7,7 +7,7 @@ use quasilux_scene::{Mesh, Scene, SensorPoint, SensorShape};
 /// Places along each edge of a grid that are taken for all of its points.
 const ALONG_GRIDS: u32 = 64;
 
-/// Bytes of the tables of so many lights that places of a scene ask for: of cubes that a triangle
+/// Bytes of the tables of this many lights that places of a scene ask for: of cubes that a triangle
 /// passes, on the side that it faces, and of those of sensors.
 pub(crate) fn tables_bytes(lights: usize, scene: &Scene) -> u64 {
     let Some(cubes) = LightChoice::new(lights, scene.mesh.bounds()).cubes else { return 0 };

@@ -150,7 +150,7 @@ fn smaller(a: f32, b: f32) -> f32 {
     if a < b { a } else { b }
 }
 
-/// Without a care for what is no number, as processors have it for lanes.
+/// Without a care for NaN, as processors have it for lanes.
 #[inline(always)]
 fn larger(a: f32, b: f32) -> f32 {
     if a > b { a } else { b }

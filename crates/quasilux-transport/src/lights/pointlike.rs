@@ -6,7 +6,7 @@ use crate::lights::selection::{Asking, ChoiceWork, DEFENSIVE_SHARE, LightChoice,
 use crate::spectrum::Spectrum;
 use crate::world::World;
 use crate::world::vertex::Vertex;
-use crate::world::visibility::{LightSample, Receiver, ShadowQueue};
+use crate::world::visibility::{LightRequest, LightSample, ShadowQueue};
 use glam::DVec3;
 use quasilux_scene::{Light, Scene};
 use std::f64::consts::PI;
@@ -78,12 +78,12 @@ impl<'a> PointLikes<'a> {
     pub(crate) fn all<S: Spectrum>(
         &self,
         world: &World<S>,
-        receivers: &[Receiver<'_, S>],
+        receivers: &[LightRequest<'_, S>],
         shadows: &mut ShadowQueue<S>,
         mut receive: impl FnMut(u32, S, u32),
     ) {
         for light in &self.lights {
-            for Receiver { who, vertex } in receivers {
+            for LightRequest { who, vertex } in receivers {
                 if let Some(light_sample) = light_sample(light, vertex) {
                     shadows.ask(*who, vertex, &light_sample);
                 }

@@ -35,7 +35,7 @@ const SIDES: usize = 7;
 const MIN_COSINE: f64 = 0.1;
 /// The least square of a distance that counts, in those of the edge of a cube.
 const MIN_SQUARE: f64 = 1.0 / 64.0;
-/// From so many edges on, light is much the same all over a cube.
+/// From this many edges on, light is much the same all over a cube.
 const FAR_EDGES: f64 = 8.0;
 /// Share of choices that trusts no weight. A bright lamp behind a wall would else take all of them
 /// from a weak one that is seen.
@@ -96,7 +96,7 @@ impl Asking {
 }
 
 impl LightChoice {
-    /// Among so many lights in a box around the geometry.
+    /// Among this many lights in a box around the geometry.
     pub(super) fn new(lights: usize, bounds: Option<[DVec3; 2]>) -> Self {
         let bounds = bounds.filter(|_| lights >= MIN_MANY);
         Self { lights, cubes: bounds.and_then(|bounds| Cubes::new(lights, bounds)) }
@@ -197,7 +197,7 @@ impl LightChoice {
 }
 
 impl ChoiceWork {
-    /// The sum of the weights: no number where one of them is none.
+    /// The sum of the weights: NaN where one of them is.
     pub(crate) fn total(&self) -> f64 {
         self.asked.iter().map(|it| it.weight).sum()
     }
@@ -262,7 +262,7 @@ impl Cubes {
         }
     }
 
-    /// The table for a place, made of the weights of so many lights in its surroundings.
+    /// The table for a place, made of the weights of this many lights in its surroundings.
     fn table(
         &self,
         Asking { position, side, .. }: Asking,

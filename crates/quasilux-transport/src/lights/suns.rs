@@ -8,10 +8,10 @@ use crate::world::visibility::LightSample;
 use glam::{DVec3, Vec3};
 use std::sync::Arc;
 
-/// So many suns are asked at a vertex where nothing is known.
+/// This many suns are asked at a vertex where nothing is known.
 const ASKED: f64 = 32.0;
-/// On ways on which no sun was found to shine, one is asked at so many of the vertices, for nobody
-/// can know.
+/// On ways on which no sun was found to shine, one is asked at this share of the vertices, for
+/// nobody can know.
 const RARELY: f64 = 0.125;
 
 /// Directions in which the sun may stand.
@@ -78,8 +78,8 @@ impl Suns {
         self.ways.is_none() && !self.directions.is_empty()
     }
 
-    /// How many of so many suns are asked at a place. Of suns that shine with a chance, the square
-    /// root of that as a share makes the most of the rays.
+    /// How many of this many suns are asked at a place. Of suns that shine with a chance, the
+    /// square root of that as a share makes the most of the rays.
     fn asked(&self, place: SunPlace, suns: usize) -> f64 {
         let learnt =
             |ways: &Arc<SunWays>| (suns as f64 * ways.shining_share(place).sqrt()).max(RARELY);

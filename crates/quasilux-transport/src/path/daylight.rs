@@ -7,7 +7,7 @@ use std::collections::VecDeque;
 
 /// Where light comes from.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Whence {
+pub(crate) enum OutsideSource {
     /// Sky or ground in this direction.
     Outside(DVec3),
     /// The same past mirrors, where nobody can ask for the sun.
@@ -30,7 +30,7 @@ pub(crate) enum LastReflection {
 /// What a path found.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FromOutside {
-    pub(crate) whence: Whence,
+    pub(crate) whence: OutsideSource,
     pub(crate) reflection: LastReflection,
     /// What its start gets in lx of 1 cd/m2 there, or of a sun of 1 lx; of what shines there where
     /// the scene has its own sky.
@@ -58,7 +58,7 @@ pub(crate) struct Daylight<'p> {
 
 #[derive(Clone, Copy, Debug)]
 struct Asked {
-    whence: Whence,
+    whence: OutsideSource,
     reflection: LastReflection,
 }
 
@@ -93,12 +93,12 @@ impl<'p> Daylight<'p> {
     }
 
     /// What it finds where it leaves the scene.
-    pub(crate) fn found(&self, whence: Whence, light: f64) -> FromOutside {
+    pub(crate) fn found(&self, whence: OutsideSource, light: f64) -> FromOutside {
         FromOutside { whence, reflection: self.reflection, light }
     }
 
     /// Asks for light; `is_reflected` where it would be reflected here.
-    pub(crate) fn note_asked(&mut self, whence: Whence, is_reflected: bool) {
+    pub(crate) fn note_asked(&mut self, whence: OutsideSource, is_reflected: bool) {
         let reflection = if is_reflected { self.after_reflection() } else { self.reflection };
         self.asked.push_back(Asked { whence, reflection });
     }

@@ -5,8 +5,8 @@ use crate::path::daylight::{DaylightSearch, FromOutside};
 use crate::path::start::{Measurement, PathMaps, Start};
 use crate::path::wave::{PathWave, WAVE};
 use crate::purpose::Purpose;
+use crate::sensors::Target;
 use crate::spectrum::Spectrum;
-use crate::stats::targets::Target;
 use quasilux_sampling::Sampler;
 use std::ops::Range;
 

@@ -2,6 +2,8 @@
 
 use crate::codec::{Reader, StateError, Stored, Writer};
 use crate::context::{Context, Stream};
+use crate::control::observer::Snapshot;
+use crate::control::watch::Watch;
 use crate::importance::{self, Plan, WeightWindows};
 use crate::photon::batch::{PhotonBatch, trace_photons, trace_photons_with_snapshots};
 use crate::photon::counts::PhotonCounts;
@@ -9,12 +11,10 @@ use crate::photon::first_shot::decide;
 use crate::photon::lit_cells::LitCells;
 use crate::photon::map::{IlluminationMap, MapLayout, MapReceiver, MapTally, refined};
 use crate::photon::order::PhotonOrder;
-use crate::photon::trace::{Lead, Source};
+use crate::photon::trace::{PhotonSetup, Source};
+use crate::sensors::Target;
 use crate::settings::{EstimatorKind, Settings};
 use crate::spectrum::Spectrum;
-use crate::stats::observer::Snapshot;
-use crate::stats::targets::Target;
-use crate::stats::watch::Watch;
 use std::ops::Range;
 
 /// Photons that only balance the flux, where the estimator needs none.
@@ -134,7 +134,7 @@ impl<S: Spectrum> PathEnd<S> {
         Prepared { end, counts }
     }
 
-    /// Photons of each map that grows, from those so far to those that so many paths of a sensor
+    /// Photons of each map that grows, from those so far to those that this many paths of a sensor
     /// point ask for; `None` where no map grows.
     pub(crate) fn photons(&self, samples: u64) -> Option<Range<u64>> {
         match self {
@@ -190,7 +190,7 @@ impl<S: Spectrum> PathEnd<S> {
             replicates: 0..tallies.len() as u32,
             indices,
             order: PhotonOrder::CoherentWaves,
-            lead: Lead::by_chance(source, windows.as_ref()),
+            setup: PhotonSetup::by_chance(source, windows.as_ref()),
         };
         let before = batch.indices.start * tallies.len() as u64;
         let look = |emitted: u64| {

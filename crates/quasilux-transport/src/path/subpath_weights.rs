@@ -71,7 +71,7 @@ impl SubpathWeights {
         Self::new(1.0 / pdf_sr, cos / pdf_sr * self.towards(reverse_pdf_sr))
     }
 
-    /// The same of an eye path at a vertex that so many copies of light subpaths leave.
+    /// The same of an eye path at a vertex that this many copies of light subpaths leave.
     pub(crate) fn scattered_where_copied(
         self,
         cos: f64,
@@ -84,7 +84,7 @@ impl SubpathWeights {
         Self { vcm: 1.0 / pdf_sr, vc, copied }
     }
 
-    /// At a vertex that so many copies of light subpaths leave; 1 at lights.
+    /// At a vertex that this many copies of light subpaths leave; 1 at lights.
     pub(crate) fn at_copies(self, copies: f64) -> Self {
         Self { vc: self.vc + self.copied / copies, copied: 0.0, ..self }
     }

@@ -103,7 +103,7 @@ pub(crate) struct PathWork<S> {
 }
 
 /// How a path goes on from a surface: factors on what the next surface sends.
-struct Onward {
+struct ContinuationWeights {
     /// On the light that the next surface emits itself, and on what comes straight from outside.
     emitted: f64,
     /// On what comes from outside through panes.
@@ -112,7 +112,7 @@ struct Onward {
     everything: f64,
 }
 
-impl Onward {
+impl ContinuationWeights {
     /// For certain, with everything.
     const ALL: Self = Self { emitted: 1.0, past_panes: 1.0, everything: 1.0 };
 }
@@ -122,7 +122,7 @@ struct Scattering<'w, S> {
     /// Reflections before this one.
     bounces: u32,
     surface: &'w Surface<'w, S>,
-    onward: Onward,
+    onward: ContinuationWeights,
 }
 
 impl<'p, S: Spectrum> Path<'p, S> {
@@ -200,7 +200,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
     }
 
     /// What became of light that the path asked for.
-    pub(crate) fn hear(&mut self, answer: &Answer<S>) {
+    pub(crate) fn on_visibility(&mut self, answer: &Answer<S>) {
         if let Some(daylight) = &mut self.daylight {
             let light = answer.bounces.map(|_| answer.light.luminance());
             self.light.found.from_outside.extend(daylight.answered(light));
@@ -352,14 +352,19 @@ impl<'p, S: Spectrum> Path<'p, S> {
 
     /// Russian roulette after the first bounces, by the albedo of the channel that is left
     /// strongest, so that the weight of a survivor never grows in it and stays bounded in all.
-    fn russian_roulette(&mut self, context: &Context<'_, S>, bounces: u32, albedo: f64) -> Onward {
+    fn russian_roulette(
+        &mut self,
+        context: &Context<'_, S>,
+        bounces: u32,
+        albedo: f64,
+    ) -> ContinuationWeights {
         if bounces < CERTAIN_BOUNCES {
-            return Onward::ALL;
+            return ContinuationWeights::ALL;
         }
         let bounce = Purpose::Bounce { surface: bounces + 1 };
         let factor = context
             .draw(&mut self.sampler, bounce, |sampler| russian_roulette_factor(albedo, sampler));
-        Onward { emitted: factor, past_panes: factor, everything: factor }
+        ContinuationWeights { emitted: factor, past_panes: factor, everything: factor }
     }
 
     /// Adds what the last vertex was waiting for.

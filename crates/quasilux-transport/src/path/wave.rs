@@ -9,12 +9,12 @@ use crate::path::start::Start;
 use crate::path::trace::{Path, PathWork};
 use crate::spectrum::Spectrum;
 use crate::world::Interaction;
-use crate::world::visibility::{Answer, Receiver};
+use crate::world::visibility::{Answer, LightRequest};
 use quasilux_bvh::{Hit, RayQuery};
 use std::mem::take;
 
-/// So many paths should travel together: the kernel has rays enough, and what they need fits into a
-/// cache of half a megabyte.
+/// This many paths should travel together: the kernel has rays enough, and what they need fits into
+/// a cache of half a megabyte.
 pub(crate) const WAVE: u64 = 512;
 
 /// Working space of paths that travel together, used again for the next ones.
@@ -22,7 +22,7 @@ pub(crate) const WAVE: u64 = 512;
 pub(crate) struct PathWave<S: 'static> {
     work: PathWork<S>,
     /// Starts where all point-like lights are tested.
-    receivers: Vec<Receiver<'static, S>>,
+    receivers: Vec<LightRequest<'static, S>>,
     /// Numbers of the paths that are on their way.
     travelling: Vec<u32>,
     queries: Vec<RayQuery>,
@@ -43,7 +43,7 @@ impl<S: Spectrum> PathWave<S> {
         self.receivers.clear();
         for (number, start) in (0..).zip(starts) {
             let vertex = start.vertex_that_tests_pointlikes();
-            self.receivers.extend(vertex.map(|vertex| Receiver { who: number, vertex }));
+            self.receivers.extend(vertex.map(|vertex| LightRequest { who: number, vertex }));
             paths.push(Path::start(context, number, start, &mut self.work));
         }
         self.answer(context, &mut paths);
@@ -91,7 +91,7 @@ impl<S: Spectrum> PathWave<S> {
 
     /// Gives the paths the light that they asked for.
     fn answer(&mut self, context: &Context<'_, S>, paths: &mut [Path<'_, S>]) {
-        let receive = |answer: Answer<S>| paths[answer.who as usize].hear(&answer);
+        let receive = |answer: Answer<S>| paths[answer.who as usize].on_visibility(&answer);
         self.work.shadows.answer_all(&context.world, receive);
     }
 }

@@ -1,14 +1,14 @@
 //! Batches of photons: a range of indices of all replicates, shared between threads.
 
 use crate::context::{Context, Stream};
+use crate::control::observer::Snapshot;
+use crate::control::watch::Watch;
 use crate::photon::counts::PhotonCounts;
 use crate::photon::order::{PhotonOrder, WAVES_PER_FIELD, Waves};
 use crate::photon::receiver::PhotonReceiver;
-use crate::photon::trace::{Lead, Source, trace_photon};
+use crate::photon::trace::{PhotonSetup, Source, trace_photon};
 use crate::photon::wave::{PhotonWave, Wave};
 use crate::spectrum::Spectrum;
-use crate::stats::observer::Snapshot;
-use crate::stats::watch::Watch;
 use quasilux_sampling::{PointSet, Sampler};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -23,7 +23,7 @@ pub(crate) struct PhotonBatch<'w> {
     pub(crate) replicates: Range<u32>,
     pub(crate) indices: Range<u64>,
     pub(crate) order: PhotonOrder,
-    pub(crate) lead: Lead<'w>,
+    pub(crate) setup: PhotonSetup<'w>,
 }
 
 impl<'s> PhotonBatch<'s> {
@@ -34,7 +34,7 @@ impl<'s> PhotonBatch<'s> {
             replicates: 0..1,
             indices,
             order: PhotonOrder::CoherentWaves,
-            lead: Lead::by_chance(source, None),
+            setup: PhotonSetup::by_chance(source, None),
         }
     }
 }
@@ -129,7 +129,7 @@ impl<'b, 'c, S: Spectrum> BatchWaves<'b, 'c, S> {
         number: u64,
         receiver: &impl Fn(u32) -> R,
     ) -> PhotonCounts {
-        let PhotonBatch { replicates, order, lead, .. } = self.batch;
+        let PhotonBatch { replicates, order, setup, .. } = self.batch;
         let row = (number / self.waves.len()) as u32;
         let points = &self.points[row as usize];
         let indices = self.waves.indices(number % self.waves.len());
@@ -138,12 +138,12 @@ impl<'b, 'c, S: Spectrum> BatchWaves<'b, 'c, S> {
         if *order == PhotonOrder::OneByOne {
             for index in indices {
                 let sampler = Sampler::new(points, index);
-                trace_photon(self.context, *lead, sampler, &mut receiver, &mut counts);
+                trace_photon(self.context, *setup, sampler, &mut receiver, &mut counts);
             }
         } else {
             let thread = rayon::current_thread_index().unwrap_or(0);
             let mut space = self.spaces[thread].lock().unwrap_or_else(PoisonError::into_inner);
-            let wave = Wave { points, indices, lead: *lead };
+            let wave = Wave { points, indices, setup: *setup };
             space.trace(self.context, wave, &mut receiver, &mut counts);
         }
         counts.invalid += receiver.finish();

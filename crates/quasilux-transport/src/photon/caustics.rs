@@ -13,15 +13,15 @@ mod tally;
 
 use crate::codec::{Reader, StateError, Stored, Writer};
 use crate::context::{Context, Stream};
+use crate::control::watch::Watch;
 use crate::cutoff::MAX_EVENTS;
 use crate::photon::batch::{PhotonBatch, trace_photons};
 use crate::photon::map::{BounceTerm, IlluminationMap, MapLayout, QUANTA_PER_PHOTON};
 use crate::photon::order::PhotonOrder;
-use crate::photon::trace::{Lead, Source};
+use crate::photon::trace::{PhotonSetup, Source};
+use crate::sensors::Target;
 use crate::settings::{Reconstruction, Settings};
 use crate::spectrum::Spectrum;
-use crate::stats::targets::Target;
-use crate::stats::watch::Watch;
 use crate::world::Interaction;
 use crate::world::flight::Flight;
 use crate::world::grid_plane::GridPlane;
@@ -82,7 +82,7 @@ impl<S: Spectrum> CausticMap<S> {
         settings: &Settings,
         targets: &[Target],
     ) -> Option<Self> {
-        if context.hides.is_empty() || context.max_bounces == Some(0) {
+        if context.caustic_ways.is_empty() || context.max_bounces == Some(0) {
             return None;
         }
         let constant =
@@ -144,7 +144,7 @@ impl<S: Spectrum> CausticMap<S> {
             replicates: 0..tallies.len() as u32,
             indices: self.photons..end,
             order: PhotonOrder::CoherentWaves,
-            lead: Lead::by_chance(Source::Lights, None),
+            setup: PhotonSetup::by_chance(Source::Lights, None),
         };
         let counts = trace_photons(context, &batch, receiver, watch)?;
         self.photons = end;

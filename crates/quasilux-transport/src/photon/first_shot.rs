@@ -11,7 +11,7 @@ use crate::context::{Context, Stream};
 use crate::photon::counts::PhotonCounts;
 use crate::photon::lit_cells::LitCells;
 use crate::photon::receiver::{PhotonReceiver, SeenPhoton};
-use crate::photon::trace::{Lead, Source, trace_photon};
+use crate::photon::trace::{PhotonSetup, Source, trace_photon};
 use crate::settings::{Settings, Switch};
 use crate::spectrum::Spectrum;
 use crate::stats::efficiency::{Performance, WeightSums};
@@ -63,7 +63,13 @@ fn work<S: Spectrum>(
     let (mut weights, mut of_pilots) = (FirstWeights::default(), PhotonCounts::default());
     for index in 0..PILOTS {
         let sampler = Sampler::new(&points, index);
-        trace_photon(context, Lead::by_chance(source, None), sampler, &mut weights, &mut of_pilots);
+        trace_photon(
+            context,
+            PhotonSetup::by_chance(source, None),
+            sampler,
+            &mut weights,
+            &mut of_pilots,
+        );
     }
     counts.rays += of_pilots.rays;
     let variance = weights.0.relative_variance().unwrap_or(f64::INFINITY);

@@ -1,13 +1,13 @@
 //! Invalid photons, from surfaces whose reflectance is not a number, infinite or negative.
 
 use crate::context::{Context, Stream};
+use crate::control::watch::Watch;
 use crate::photon::batch::{PhotonBatch, trace_photons};
 use crate::photon::counts::PhotonCounts;
 use crate::photon::order::PhotonOrder;
 use crate::photon::receiver::{PhotonReceiver, SeenPhoton};
-use crate::photon::trace::{Lead, Source};
+use crate::photon::trace::{PhotonSetup, Source};
 use crate::settings::Settings;
-use crate::stats::watch::Watch;
 use crate::world::Interaction;
 use crate::world::flight::Flight;
 use glam::DVec3;
@@ -58,7 +58,7 @@ fn traced(reflectance: f64, order: PhotonOrder) -> PhotonCounts {
         replicates: 0..1,
         indices: 0..PHOTONS,
         order,
-        lead: Lead::by_chance(Source::Lights, None),
+        setup: PhotonSetup::by_chance(Source::Lights, None),
     };
     trace_photons(&context, &batch, |_| Guard, &mut Watch::new(&mut ())).unwrap()
 }

@@ -50,14 +50,14 @@ pub(crate) enum Source<'s> {
 
 /// Where photons begin, and what guides them.
 #[derive(Clone, Copy)]
-pub(crate) struct Lead<'s> {
+pub(crate) struct PhotonSetup<'s> {
     pub(crate) source: Source<'s>,
     pub(crate) windows: Option<&'s WeightWindows>,
     /// Without weight windows, photons survive for certain down to this weight.
     pub(crate) certain_weight: f64,
 }
 
-impl<'s> Lead<'s> {
+impl<'s> PhotonSetup<'s> {
     /// Photons that survive by chance at each surface, unless something guides them.
     pub(crate) fn by_chance(source: Source<'s>, windows: Option<&'s WeightWindows>) -> Self {
         Self { source, windows, certain_weight: f64::INFINITY }
@@ -105,7 +105,7 @@ pub(crate) struct Departure<'p, S> {
 /// [`crate::photon::wave::PhotonWave`].
 pub(crate) fn trace_photon<'p, S: Spectrum>(
     context: &Context<'_, S>,
-    lead: Lead<'_>,
+    setup: PhotonSetup<'_>,
     sampler: Sampler<'p>,
     receiver: &mut impl PhotonReceiver<S>,
     counts: &mut PhotonCounts,
@@ -114,7 +114,7 @@ pub(crate) fn trace_photon<'p, S: Spectrum>(
     counts.emitted += 1;
     counts.begun += 1;
     let mut generation: Vec<Departure<'p, S>> = Vec::new();
-    match photon.begin(context, lead.source, counts) {
+    match photon.begin(context, setup.source, counts) {
         Some(Beginning::Flies(start)) => generation.push(Departure { photon, start }),
         Some(Beginning::IfLit(place)) => {
             counts.rays += 1;
@@ -122,7 +122,7 @@ pub(crate) fn trace_photon<'p, S: Spectrum>(
                 return counts.end(&photon);
             }
             photon.receive(&place);
-            photon.scatter(context, lead, &place.arrival(), counts, |next| generation.push(next));
+            photon.scatter(context, setup, &place.arrival(), counts, |next| generation.push(next));
         }
         None => return counts.end(&photon),
     }
@@ -133,7 +133,7 @@ pub(crate) fn trace_photon<'p, S: Spectrum>(
             let found = context.world.trace(from, direction);
             photon.show(context, from.position(), direction, found.as_ref(), bounces, receiver);
             let arrival = Arrival { direction, found: found.as_ref(), bounces, is_drawn: false };
-            photon.scatter(context, lead, &arrival, counts, |departure| next.push(departure));
+            photon.scatter(context, setup, &arrival, counts, |departure| next.push(departure));
         }
         if next.is_empty() {
             return;
@@ -180,7 +180,7 @@ impl<'p, S: Spectrum> Photon<'p, S> {
     ) -> Option<Beginning> {
         let begins = self.draw_beginning(context, source);
         let carried = if begins.is_some() { self.quanta() } else { Some(0) };
-        // What is no number is refused where it lands.
+        // NaN is refused where it lands.
         counts.withheld += QUANTA_PER_PHOTON as i64 - carried.unwrap_or(0);
         begins
     }
@@ -243,7 +243,7 @@ impl<'p, S: Spectrum> Photon<'p, S> {
     pub(crate) fn scatter(
         mut self,
         context: &Context<'_, S>,
-        lead: Lead<'_>,
+        setup: PhotonSetup<'_>,
         arrival: &Arrival<'_>,
         counts: &mut PhotonCounts,
         mut depart: impl FnMut(Departure<'p, S>),
@@ -266,9 +266,9 @@ impl<'p, S: Spectrum> Photon<'p, S> {
         if !self.gain.grow(left / luminance, bounces) {
             return counts.give_up(&self);
         }
-        let window = lead.windows.filter(|_| bsdf.keeps_illuminance()).and_then(|w| w.at(at));
+        let window = setup.windows.filter(|_| bsdf.keeps_illuminance()).and_then(|w| w.at(at));
         // Of drawn places those are rare that absorb much, so all photons go on from there.
-        let is_certain = arrival.is_drawn || left >= lead.certain_weight;
+        let is_certain = arrival.is_drawn || left >= setup.certain_weight;
         let survivor = if is_certain { left } else { luminance };
         let split = Split::new(left, window.map_or(survivor, |window| window.weight));
         let bounce = Purpose::Bounce { surface: bounces + 1 };

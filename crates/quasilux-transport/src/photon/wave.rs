@@ -11,7 +11,7 @@ use crate::context::{Context, Step};
 use crate::cutoff::MAX_EVENTS;
 use crate::photon::counts::PhotonCounts;
 use crate::photon::receiver::{Arrival, PhotonReceiver};
-use crate::photon::trace::{Beginning, Lead, Photon};
+use crate::photon::trace::{Beginning, Photon, PhotonSetup};
 use crate::spectrum::Spectrum;
 use crate::world::Interaction;
 use quasilux_bvh::{Hit, RayQuery};
@@ -25,7 +25,7 @@ pub(crate) struct Wave<'p, 'w, I> {
     pub(crate) points: &'p PointSet,
     pub(crate) indices: I,
     /// Where from, and what guides them.
-    pub(crate) lead: Lead<'w>,
+    pub(crate) setup: PhotonSetup<'w>,
 }
 
 /// Working space for one wave after the other.
@@ -65,7 +65,7 @@ impl<'p, S: Spectrum> PhotonWave<'p, S> {
         counts: &mut PhotonCounts,
     ) {
         let lap = |step| context.stopwatch.iter().for_each(|stopwatch| stopwatch.lap(step));
-        let Wave { points, indices, lead } = wave;
+        let Wave { points, indices, setup } = wave;
         self.photons.clear();
         self.photons.extend(
             indices.map(|index| Photon::new(Sampler::new(points, index)).for_receiver(receiver)),
@@ -74,12 +74,12 @@ impl<'p, S: Spectrum> PhotonWave<'p, S> {
         lap(Step::Sampling);
         counts.emitted += self.photons.len() as u64;
         counts.begun += self.photons.len() as u64;
-        self.begin(context, lead, counts);
+        self.begin(context, setup, counts);
         self.trace_shadow_rays(context, points, counts);
-        self.depart(context, lead, counts);
+        self.depart(context, setup, counts);
         lap(Step::Emission);
         let mut bounces = 0;
-        while let Some(reached) = self.muster(bounces) {
+        while let Some(reached) = self.next_batch(bounces) {
             bounces = reached;
             if bounces == MAX_EVENTS {
                 self.photons.drain(..).for_each(|photon| counts.give_up(&photon));
@@ -92,7 +92,7 @@ impl<'p, S: Spectrum> PhotonWave<'p, S> {
             lap(Step::Tally);
             self.supply(points);
             lap(Step::Sampling);
-            self.scatter(context, lead, bounces, counts);
+            self.scatter(context, setup, bounces, counts);
             bounces += 1;
             lap(Step::Scattering);
         }
@@ -100,7 +100,7 @@ impl<'p, S: Spectrum> PhotonWave<'p, S> {
 
     /// Makes sure that there are photons to fly, not too many; after how many bounces. `None` where
     /// none are left.
-    fn muster(&mut self, bounces: u32) -> Option<u32> {
+    fn next_batch(&mut self, bounces: u32) -> Option<u32> {
         while self.photons.len() > LONGEST {
             let rest = self.photons.len() - LONGEST;
             let photons = self.photons.split_off(rest);
@@ -116,10 +116,15 @@ impl<'p, S: Spectrum> PhotonWave<'p, S> {
     }
 
     /// Draws all beginnings.
-    fn begin(&mut self, context: &Context<'_, S>, lead: Lead<'_>, counts: &mut PhotonCounts) {
+    fn begin(
+        &mut self,
+        context: &Context<'_, S>,
+        setup: PhotonSetup<'_>,
+        counts: &mut PhotonCounts,
+    ) {
         self.beginnings.clear();
         self.photons.retain_mut(|photon| {
-            let beginning = photon.begin(context, lead.source, counts);
+            let beginning = photon.begin(context, setup.source, counts);
             if beginning.is_none() {
                 counts.end(photon);
             }
@@ -150,7 +155,12 @@ impl<'p, S: Spectrum> PhotonWave<'p, S> {
     }
 
     /// Lets all photons fly that leave a light, or a place that light comes to.
-    fn depart(&mut self, context: &Context<'_, S>, lead: Lead<'_>, counts: &mut PhotonCounts) {
+    fn depart(
+        &mut self,
+        context: &Context<'_, S>,
+        setup: PhotonSetup<'_>,
+        counts: &mut PhotonCounts,
+    ) {
         let (photons, queries) = &mut self.departed;
         let mut is_lit = self.is_lit.iter();
         for (mut photon, beginning) in self.photons.drain(..).zip(&self.beginnings) {
@@ -161,7 +171,7 @@ impl<'p, S: Spectrum> PhotonWave<'p, S> {
                 }
                 Beginning::IfLit(place) if is_lit.next() == Some(&true) => {
                     photon.receive(place);
-                    photon.scatter(context, lead, &place.arrival(), counts, |departure| {
+                    photon.scatter(context, setup, &place.arrival(), counts, |departure| {
                         queries.push(departure.start.from.query(departure.start.direction));
                         photons.push(departure.photon);
                     });
@@ -205,7 +215,7 @@ impl<'p, S: Spectrum> PhotonWave<'p, S> {
     fn scatter(
         &mut self,
         context: &Context<'_, S>,
-        lead: Lead<'_>,
+        setup: PhotonSetup<'_>,
         bounces: u32,
         counts: &mut PhotonCounts,
     ) {
@@ -218,7 +228,7 @@ impl<'p, S: Spectrum> PhotonWave<'p, S> {
                 bounces,
                 is_drawn: false,
             };
-            photon.scatter(context, lead, &arrival, counts, |departure| {
+            photon.scatter(context, setup, &arrival, counts, |departure| {
                 queries.push(departure.start.from.query(departure.start.direction));
                 photons.push(departure.photon);
             });

@@ -2,12 +2,12 @@
 
 use crate::codec::{Reader, StateError};
 use crate::context::Context;
+use crate::control::watch::Watch;
 use crate::estimator::block::BlockFrame;
 use crate::estimator::{UNSTOPPED, new_estimator};
 use crate::prepared::PreparedScene;
 use crate::settings::Settings;
 use crate::spectrum::{Spectrum, is_grey};
-use crate::stats::watch::Watch;
 use quasilux_scene::Rgb;
 use std::ops::Range;
 

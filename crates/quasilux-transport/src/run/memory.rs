@@ -7,9 +7,9 @@
 use crate::estimator::bidirectional::MAX_PHOTONS;
 use crate::importance::{MAX_NODES, Node};
 use crate::lights::{coarse_tables_bytes, tables_bytes};
-use crate::path::sections::PathSums;
+use crate::path::path_batch::PathSums;
 use crate::photon::map::{COARSE_ELEMENTS_ACROSS, ELEMENTS_ACROSS, MAX_NEW_ELEMENTS};
-use crate::run::pixels::INDICES;
+use crate::pictures::integrator::INDICES;
 use crate::settings::{EstimatorKind, Reconstruction, Settings, Switch};
 use crate::spectrum::{Spectrum, is_grey};
 use crate::stats::tally::Sum;
@@ -107,7 +107,7 @@ impl MemoryNeed {
         }
     }
 
-    /// All of it after so many samples; `None` stands for any number.
+    /// All of it after this many samples; `None` stands for any number.
     #[must_use]
     pub fn total_bytes(&self, samples: Option<u64>) -> u64 {
         let filled = samples.unwrap_or(u64::MAX).saturating_mul(self.maps_bytes_a_sample);
@@ -140,7 +140,7 @@ fn point_bytes(settings: &Settings) -> u64 {
 }
 
 /// Elements of a map on one side of all triangles at most, as [`crate::photon::map::MapLayout`]
-/// cuts them, so many to a scene's size, and splits them.
+/// cuts them, this many to a scene's size, and splits them.
 fn elements(scene: &Scene, settings: &Settings, across: f64, split: u64) -> u64 {
     let mesh = &scene.mesh;
     let size_m = mesh.bounds().map_or(0.0, |[low, high]| (high - low).length());

@@ -8,16 +8,16 @@
 
 use crate::codec::{Reader, StateError, Writer};
 use crate::context::Context;
+use crate::control::observer::Observer;
+use crate::control::watch::Watch;
 use crate::estimator::{Estimator, UNSTOPPED, new_estimator};
+use crate::pictures::camera_run::add_pictures;
 use crate::prepared::PreparedScene;
-use crate::run::pictures::add_pictures;
 use crate::run::simulate::{Look, Sums, look};
 use crate::settings::Settings;
 use crate::spectrum::{Spectrum, is_grey};
 use crate::stats::decisions::Decisions;
 use crate::stats::estimates::Estimates;
-use crate::stats::observer::Observer;
-use crate::stats::watch::Watch;
 use quasilux_scene::{Rgb, Scene};
 use sha2::{Digest, Sha256};
 use std::fmt::Write;
@@ -41,8 +41,8 @@ pub fn decide(scene: &Scene, settings: &Settings) -> Decisions {
     }
 }
 
-/// Traces the indices `part` of a run of so many `samples` in all replicates, for [`merge`]; `None`
-/// when the observer stopped it.
+/// Traces the indices `part` of a run of this many `samples` in all replicates, for [`merge`];
+/// `None` when the observer stopped it.
 #[must_use]
 pub fn trace_part<'a>(
     scene: impl Into<PreparedScene<'a>>,

@@ -3,23 +3,23 @@
 
 use crate::codec::{Reader, StateError};
 use crate::context::Context;
+use crate::control::observer::{Control, Observer};
+use crate::control::watch::Watch;
+use crate::control::workers::Workers;
 use crate::estimator::{Estimator, new_estimator};
+use crate::pictures::camera_run::add_pictures;
 use crate::prepared::PreparedScene;
 use crate::run::cannot_see::cannot_see;
 use crate::run::check::{caveats, is_biased};
 use crate::run::course::Course;
-use crate::run::pictures::add_pictures;
 use crate::settings::{EstimatorKind, Settings};
 use crate::spectrum::{Spectrum, is_grey};
 use crate::stats::caveat::Caveat;
 use crate::stats::decisions::Decisions;
 use crate::stats::estimates::Estimates;
-use crate::stats::observer::{Control, Observer};
 use crate::stats::schedule::Schedule;
 use crate::stats::sequential::Stopping;
 use crate::stats::tolerance::Standing;
-use crate::stats::watch::Watch;
-use crate::stats::workers::Workers;
 use quasilux_bvh::SimdLevel;
 use quasilux_scene::{Rgb, Scene};
 
@@ -277,9 +277,9 @@ pub(crate) fn look<S: Spectrum>(
     let sees_hidden = !is_bounded
         && settings.estimator != EstimatorKind::Photon
         && settings.max_bounces != Some(0);
-    if sees_hidden && !context.hides.is_empty() {
+    if sees_hidden && !context.caustic_ways.is_empty() {
         estimates.biased = true;
-        estimates.caveats.push(Caveat::Caustics { ways: context.hides.clone() });
+        estimates.caveats.push(Caveat::Caustics { ways: context.caustic_ways.clone() });
     }
     let standing = Standing::new(&estimates, settings);
     estimates.unresolved_points = standing.unresolved;

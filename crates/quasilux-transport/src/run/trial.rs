@@ -10,12 +10,12 @@ pub use crate::context::{Step, Stopwatch};
 pub use crate::photon::order::PhotonOrder;
 
 use crate::context::Context;
+use crate::control::watch::Watch;
 use crate::estimator::photon_estimator::PhotonEstimator;
 use crate::run::simulate::simulate_on;
 use crate::settings::Settings;
 use crate::spectrum::{Spectrum, is_grey};
 use crate::stats::estimates::Estimates;
-use crate::stats::watch::Watch;
 use quasilux_scene::{Rgb, Scene};
 use std::ops::Range;
 

@@ -105,8 +105,9 @@ impl CertifiedInterval {
     }
 }
 
-/// What one limit may miss with after so many indices, so that those at all checkpoints before and
-/// this one together miss with `miss`: checkpoints are powers of two and a last one between them.
+/// What one limit may miss with after this many indices, so that those at all checkpoints before
+/// and this one together miss with `miss`: checkpoints are powers of two and a last one between
+/// them.
 pub(crate) fn miss_at_a_checkpoint(miss: f64, samples: u64) -> f64 {
     let number = 1.0 + f64::from(samples.max(1).next_power_of_two().trailing_zeros());
     miss / (number * (number + 1.0))
@@ -147,7 +148,7 @@ fn log_capital(values: &[f64], m: f64) -> f64 {
     most + libm::log(logs.iter().map(|log| libm::exp(log - most)).sum::<f64>())
 }
 
-/// A mean that so many independent values with this mean lie below with a probability of at least
+/// A mean that this many independent values with this mean lie below with a probability of at least
 /// `1 - miss`: see [`IndexTotals`].
 #[must_use]
 pub fn upper_limit(mean: f64, most: f64, trials: f64, miss: f64) -> f64 {

@@ -441,7 +441,7 @@ impl Estimates {
             [of(without, value_lx), of(with, value_lx + factor * bound_lx)]
         });
         let more_lx = with - without;
-        // What is no number is not known at all.
+        // NaN is not known at all.
         Some(if more_lx.is_nan() { f64::INFINITY } else { more_lx.max(0.0) })
     }
 }

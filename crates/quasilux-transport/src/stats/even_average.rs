@@ -23,7 +23,7 @@ pub struct EvenAverage {
 }
 
 impl EvenAverage {
-    /// Whether it is of so many replicates and terms.
+    /// Whether it is of this many replicates and terms.
     pub(crate) fn has_shape(&self, replicates: usize, terms: usize) -> bool {
         let mut rows = self.terms_lx.iter().chain([&self.replicate_lx]);
         self.terms_lx.len() == terms && rows.all(|row| row.len() == replicates)

@@ -35,7 +35,7 @@
 
 use crate::stats::interval::{Interval, t_quantile_for};
 
-/// Correlations are found from so many replicates at most.
+/// Correlations are found from this many replicates at most.
 const MAX_ROWS: usize = 256;
 
 /// Mean and standard error of one point.

@@ -3,10 +3,10 @@
 //! [`tally`] holds the sums, [`interval`] and [`minimum`] how intervals are made, [`estimates`]
 //! those of sensor values, [`even_average`] those of averages, [`unseen`] what is left open beside
 //! them, [`point_status`] what a point waits for, [`caveat`] what else a reader must know,
-//! [`certified`] intervals that hold for any number of samples, [`sequential`] what looking several times costs them, [`schedule`] and [`tolerance`]
-//! what the decision to stop needs (`run::simulate` takes it), [`convergence`] the prediction of
-//! the end, [`efficiency`] the choice between estimators, [`observer`] and [`watch`] the way out of
-//! a run, [`workers`] the way to other processes.
+//! [`certified`] intervals that hold for any number of samples, [`sequential`] what looking several
+//! times costs them, [`schedule`] and [`tolerance`] what the decision to stop needs
+//! (`run::simulate` takes it), [`convergence`] the prediction of the end, [`efficiency`] the choice
+//! between estimators.
 
 pub(crate) mod caveat;
 pub mod certified;
@@ -17,15 +17,11 @@ pub mod estimates;
 pub(crate) mod even_average;
 pub mod interval;
 pub(crate) mod minimum;
-pub mod observer;
 pub(crate) mod picture;
 pub(crate) mod point_status;
 pub(crate) mod schedule;
 pub(crate) mod scores;
 pub(crate) mod sequential;
 pub(crate) mod tally;
-pub(crate) mod targets;
 pub(crate) mod tolerance;
 pub mod unseen;
-pub(crate) mod watch;
-pub(crate) mod workers;

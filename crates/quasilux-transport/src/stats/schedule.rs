@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 /// No run goes past this many indices per replicate.
 pub(crate) const MAX_SAMPLES: u64 = 1 << 48;
 
-/// Before so many indices nothing is called done, not even where a limit ends the run. Light that
+/// Before this many indices nothing is called done, not even where a limit ends the run. Light that
 /// few paths find, such as that of a lamp in a mirror, makes means of fewer so skew that Student's
 /// t is worth nothing, and a lucky spread would end them: with 4 paths in each of 16 replicates,
 /// intervals far from a mirror may cover 60 % (`tests/it/few.rs`).

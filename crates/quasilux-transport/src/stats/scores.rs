@@ -34,7 +34,7 @@ pub(crate) struct Scores {
 }
 
 impl Scores {
-    /// Adds a score; zeros and what is no number are left out.
+    /// Adds a score; zeros and NaN are left out.
     #[inline]
     pub(crate) fn add(&mut self, score: f64, quantum: Quantum) {
         let bin = bin(score / quantum.reference());
@@ -54,7 +54,7 @@ impl Scores {
         self.counts.iter_mut().zip(&other.counts).for_each(|(sum, more)| *sum += more);
     }
 
-    /// Whether too few scores make the variance of so many samples, zeros among them, and the
+    /// Whether too few scores make the variance of this many samples, zeros among them, and the
     /// spread of their mean is not small beside this standard error, over the reference.
     pub(crate) fn hide_their_tail(&self, samples: u64, standard_error: f64) -> bool {
         let n = samples as f64;

@@ -112,8 +112,8 @@ impl Standing {
         widths.reduce(|a, b| if a > b { a } else { b })
     }
 
-    /// Whether a run of so many samples may call anything done. Without sensors there is nothing to
-    /// be wrong about, and what is not sampled is exact.
+    /// Whether a run of this many samples may call anything done. Without sensors there is nothing
+    /// to be wrong about, and what is not sampled is exact.
     pub(crate) fn has_enough(&self, samples: u64, settings: &Settings) -> bool {
         let is_exact =
             settings.max_bounces == Some(0) && self.largest().is_some_and(|w| w < ROUNDING);
@@ -226,7 +226,7 @@ fn excess(interval: &Interval, settings: &Settings) -> Option<f64> {
     let half_width = interval.half_width?;
     let tolerance_lx = settings.tolerance_lx(interval.value);
     let excess = if half_width == 0.0 { 0.0 } else { half_width / tolerance_lx };
-    // What is no number is not known at all.
+    // NaN is not known at all.
     Some(if excess.is_nan() { f64::INFINITY } else { excess })
 }
 
@@ -234,7 +234,7 @@ fn excess(interval: &Interval, settings: &Settings) -> Option<f64> {
 fn unseen_excess(unseen_lx: f64, value_lx: f64, settings: &Settings) -> f64 {
     let Some(tolerance_lx) = settings.unseen_tolerance_lx(value_lx) else { return 0.0 };
     let excess = if unseen_lx == 0.0 { 0.0 } else { unseen_lx / tolerance_lx };
-    // What is no number is not known at all.
+    // NaN is not known at all.
     if excess.is_nan() { f64::INFINITY } else { excess }
 }
 

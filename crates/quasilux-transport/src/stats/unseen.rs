@@ -61,7 +61,7 @@ impl UnseenLight {
     }
 }
 
-/// Light in lx at most, with [`UNSEEN_CONFIDENCE`], by ways on which none of so many trials had a
+/// Light in lx at most, with [`UNSEEN_CONFIDENCE`], by ways on which none of this many trials had a
 /// sample; `most_lx` is what a sample adds times the samples that a trial expects. Infinite where
 /// nothing is known.
 #[must_use]

@@ -27,9 +27,9 @@ pub(crate) struct LightSample<S> {
     pub(crate) through_panes: bool,
 }
 
-/// Somebody who asks for light at a place.
+/// A place that requests direct light, and the number of who does.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Receiver<'w, S> {
+pub(crate) struct LightRequest<'w, S> {
     pub(crate) who: u32,
     pub(crate) vertex: Vertex<'w, S>,
 }
@@ -42,7 +42,7 @@ pub(crate) struct ShadowQueue<S> {
     questions: Vec<Question<S>>,
     visible: Vec<bool>,
     passages: Vec<Option<Passage<S>>>,
-    /// So many mirrors and panes may be in the way of what is asked for next.
+    /// This many mirrors and panes may be in the way of what is asked for next.
     pub(crate) max_bounces: u32,
 }
 
@@ -54,7 +54,7 @@ struct Question<S> {
     shadow_rays: u32,
     /// How many mirrors the way leads over.
     mirrors: u32,
-    /// So many panes may stand in it, all together.
+    /// This many panes may stand in it, all together.
     max_panes: u32,
 }
 

@@ -161,7 +161,7 @@ fn a_picture_depends_on_nothing_else() {
     assert_eq!(taken(&scene, 2)[0], alone[0]);
 }
 
-/// Says stop once a picture has a complete pass of so many paths.
+/// Says stop once a picture has a complete pass of this many paths.
 struct Impatient(u64);
 
 impl Observer for Impatient {
@@ -256,7 +256,10 @@ fn pictures_show_light_that_only_photons_find() {
         let max_samples = Some(64);
         let settings = Settings { image_depth, max_bounces, max_samples, ..Settings::default() };
         let estimates = simulate(&scene, &settings, &mut ());
-        let is_blurred = |it: &&Caveat| matches!(it, Caveat::PictureBlurred { radius_m, .. } if (0.1..0.2).contains(radius_m));
+        let is_blurred = |it: &&Caveat| match it {
+            Caveat::PictureBlurred { radius_m, .. } => (0.1..0.2).contains(radius_m),
+            _ => false,
+        };
         let blurred = estimates.caveats.iter().filter(is_blurred);
         assert_eq!(blurred.count(), usize::from(image_depth == Some(0)));
         let mean = estimates.picture_mean(0);

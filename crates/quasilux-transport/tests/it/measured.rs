@@ -102,7 +102,7 @@ impl Mean {
         (0..points).map(|point| Self::new(estimates, 0, point)).collect()
     }
 
-    /// Of light that is so many times as much.
+    /// Of light that is this many times as much.
     pub(crate) fn times(self, factor: f64) -> Self {
         let Self { value_lx, standard_error_lx } = self;
         Self { value_lx: value_lx * factor, standard_error_lx: standard_error_lx * factor }

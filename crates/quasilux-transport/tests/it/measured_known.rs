@@ -17,7 +17,7 @@ use quasilux_stats::student_t_quantile;
 use quasilux_transport::{EstimatorKind, Scattering};
 use std::f64::consts::{FRAC_1_PI, FRAC_PI_2};
 
-/// Directions of the quadratures, so many a side of the disk.
+/// Directions of the quadratures, this many a side of the disk.
 const INCIDENT: u32 = 9;
 const EXIT: u32 = 160;
 

@@ -201,7 +201,7 @@ fn an_even_outside_is_a_lamp_in_the_window() {
     }
 }
 
-/// The window in so many tiles along each edge.
+/// The window in this many tiles along each edge.
 fn tiles(window: &Opening, count: u32) -> Vec<Opening> {
     let [u, v] = [window.u, window.v].map(|edge| edge / f64::from(count));
     let tile = |k: u32| {

@@ -17,7 +17,7 @@ fn grid(name: &str, [origin, u, v]: [DVec3; 3], counts: [u32; 2], normal: DVec3)
     Sensor { name: name.to_owned(), shape: SensorShape::Grid(grid) }
 }
 
-/// So many samples, without a tolerance.
+/// This many samples, without a tolerance.
 fn run(scene: &Scene, estimator: EstimatorKind, samples: u64, seed: u64) -> Estimates {
     let max_samples = Some(samples);
     let settings = Settings { estimator, max_samples, rel_tol: 0.0, seed, ..Settings::default() };

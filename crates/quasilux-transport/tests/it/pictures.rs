@@ -121,7 +121,7 @@ fn sheets_are_lit_from_behind() {
 /// Seeds of the test of intervals.
 const SEEDS: u64 = 40;
 
-/// Of the intervals of the pixels of small pictures, by so many paths each, the share that holds
+/// Of the intervals of the pixels of small pictures, by this many paths each, the share that holds
 /// the mean over all choices of the seed; and of intervals 30 % narrower.
 fn coverage(estimator: EstimatorKind, samples: u64) -> [f64; 2] {
     let mut scene = furnished();
@@ -132,7 +132,7 @@ fn coverage(estimator: EstimatorKind, samples: u64) -> [f64; 2] {
     share
 }
 
-/// One for each of so many seeds.
+/// One for each of this many seeds.
 fn pictures(scene: &Scene, settings: &Settings, seeds: u64) -> Vec<Estimates> {
     (0..seeds).map(|seed| taken(scene, &Settings { seed, ..settings.clone() })).collect()
 }

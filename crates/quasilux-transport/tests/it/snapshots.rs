@@ -20,7 +20,7 @@ struct Album {
 }
 
 impl Album {
-    /// What came after the checkpoint at so many indices per replicate and before the next.
+    /// What came after the checkpoint at this many indices per replicate and before the next.
     fn between(&self, checkpoint: u64) -> Vec<&Snapshot> {
         let own = self.pictures.iter().filter(|(at, _)| *at == checkpoint);
         own.map(|(_, snapshot)| snapshot).collect()

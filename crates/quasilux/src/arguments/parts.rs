@@ -121,7 +121,7 @@ pub(crate) struct Slice {
 }
 
 impl Slice {
-    /// Its indices among so many.
+    /// Its indices among this many.
     pub(crate) fn indices(self, samples: u64) -> Range<u64> {
         let bound =
             |number: u64| (u128::from(samples) * u128::from(number) / u128::from(self.of)) as u64;

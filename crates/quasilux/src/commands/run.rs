@@ -222,7 +222,7 @@ pub(crate) fn count(threads: Option<u16>) -> usize {
     }
 }
 
-/// So many threads.
+/// This many threads.
 pub(crate) fn pool(threads: usize) -> Result<rayon::ThreadPool, CliError> {
     rayon::ThreadPoolBuilder::new()
         .num_threads(threads)

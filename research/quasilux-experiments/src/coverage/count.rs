@@ -63,7 +63,7 @@ impl Moment {
 }
 
 impl Figure {
-    /// Those of a sensor with so many points.
+    /// Those of a sensor with this many points.
     pub(super) fn all(points: usize) -> impl Iterator<Item = Self> {
         (0..points).map(Self::Point).chain([Self::Average, Self::Minimum])
     }
@@ -164,7 +164,7 @@ impl Verdict {
     }
 }
 
-/// The probability of so many covered runs or a worse number, at the nearest promised coverage.
+/// The probability of this many covered runs or a worse number, at the nearest promised coverage.
 fn p_value(covered: usize, runs: usize, [least, most]: [f64; 2]) -> f64 {
     let share = covered as f64 / runs as f64;
     if share < least {

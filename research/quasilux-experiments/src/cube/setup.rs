@@ -10,8 +10,8 @@ pub(super) enum Form {
     /// The paper's direct method: photons are counted on the elements of a map, whose legs have
     /// this length, and a place reads its element.
     Photons { element_m: f64 },
-    /// The paper's bidirectional method: so many photons for each path from a place, which ends on
-    /// the same map.
+    /// The paper's bidirectional method: this many photons for each path from a place, which ends
+    /// on the same map.
     Map { element_m: f64, photons_per_path: u32 },
     /// Our own: the default, paths from the places that are connected to light subpaths.
     Own,
@@ -72,7 +72,7 @@ impl Points {
         (self == Self::PlainHalton).then_some(20)
     }
 
-    /// The sequence of a run of so many indices.
+    /// The sequence of a run of this many indices.
     fn sequence(self, samples: u64) -> Sequence {
         match self {
             Self::Independent => Sequence::Independent,
@@ -110,7 +110,8 @@ impl Form {
         }
     }
 
-    /// N of a run of so many indices: photons of a replicate; in our own form, paths from a place.
+    /// N of a run of this many indices: photons of a replicate; in our own form, paths from a
+    /// place.
     pub(super) fn n(self, samples: u64) -> u64 {
         samples * self.photons_per_index()
     }

@@ -134,7 +134,7 @@ impl Trial {
     }
 
     /// Welch's test of what photons bring at each point, by Student's t with the fewer degrees of
-    /// freedom, which is careful; of so many trials.
+    /// freedom, which is careful; of this many trials.
     pub(super) fn agreement(&self, trials: usize) -> Agreement {
         let [off, on] = self.last();
         let columns = [off, on].map(|snapshot| columns(snapshot, Part::OfPhotons));

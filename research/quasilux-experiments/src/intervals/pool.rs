@@ -40,7 +40,7 @@ impl Values {
         Self { values, mean }
     }
 
-    /// So many of them, by chance: those of a run.
+    /// This many of them, by chance: those of a run.
     pub(super) fn draw(&self, run: u32, count: usize) -> Vec<f64> {
         let uniforms = PointSet::new(Sequence::Independent, Randomization::None, u64::from(run));
         let n = self.values.len();
@@ -62,7 +62,7 @@ impl Values {
 }
 
 impl Pool {
-    /// Light that no sample of so many indices met, at most, over the truth.
+    /// Light that no sample of this many indices met, at most, over the truth.
     pub(super) fn unseen_share(&self, indices: usize) -> f64 {
         rule_of_three() * self.range_lx / (indices as f64 * self.trials.mean)
     }

@@ -1,4 +1,4 @@
-//! The pictures: what a camera sees of the light of so many bounces.
+//! The pictures: what a camera sees of the light of this many bounces.
 
 use super::{Effort, PIXEL_REPLICATES, room};
 use quasilux_report::picture::{SeriesPicture, series_png};

@@ -11,8 +11,8 @@ use quasilux_transport::interval::t_quantile_for;
 use std::fmt::Write;
 
 const COLUMNS: &str = "kind,estimator,bounces,values,mean,half_width,unit\n";
-/// From so many bounces on the light has forgotten where it came from: ratios of terms differ by so
-/// much, and no more.
+/// From this many bounces on the light has forgotten where it came from: ratios of terms differ by
+/// so much, and no more.
 const SETTLED: usize = 3;
 const GEOMETRIC: f64 = 0.01;
 

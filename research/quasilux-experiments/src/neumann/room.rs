@@ -40,7 +40,7 @@ pub(super) fn measured() -> Scene {
     scene
 }
 
-/// The room as a camera sees it from a corner; every pixel is cut into so many.
+/// The room as a camera sees it from a corner; every pixel is cut into this many.
 pub(super) fn seen(resolution: [u32; 2]) -> Scene {
     let mut scene = furnished();
     scene.cameras.push(Camera {

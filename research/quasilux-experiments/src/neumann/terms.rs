@@ -21,7 +21,7 @@ pub(super) struct Terms {
     /// replicate, in lx.
     pub(super) by_paths_lx: Vec<Vec<f64>>,
     pub(super) by_photons_lx: Vec<Vec<f64>>,
-    /// The same of runs that are cut after so many bounces, or not at all.
+    /// The same of runs that are cut after this many bounces, or not at all.
     pub(super) cut_lx: Vec<(Option<u32>, Vec<f64>)>,
     /// Indices a replicate of the runs above: paths of each cell, and photons.
     pub(super) paths: u64,

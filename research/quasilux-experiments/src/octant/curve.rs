@@ -38,7 +38,7 @@ pub(super) struct Curve {
     pub(super) slope: Option<f64>,
 }
 
-/// What a setup knows after so many samples.
+/// What a setup knows after this many samples.
 pub(super) struct Stop {
     /// Photons, or paths of each mesh.
     pub(super) samples: u64,

@@ -257,7 +257,7 @@ fn errors(findings: &Findings, randomisations: usize) -> String {
     text
 }
 
-/// Of the paper's two ways, where both have so many photons.
+/// Of the paper's two ways, where both have this many photons.
 pub(super) fn gain_at(findings: &Findings, n: u64) -> Option<Contrast> {
     let [pseudo, quasi, ..] = findings.curves.as_slice() else { return None };
     let squares =

@@ -174,7 +174,7 @@ fn distinct_facets() -> impl Iterator<Item = Steps> {
     facets(COARSEST).into_iter().filter(move |facet| middle(facet).is_sorted())
 }
 
-/// The one in the middle of a facet after each edge was cut in four, so many times.
+/// The one in the middle of a facet after each edge was cut in four, this many times.
 fn in_the_middle(facet: Steps, times: u32) -> Steps {
     let sum = |a: [u32; 3], b: [u32; 3]| [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
     // Cut in two, the middle one joins the middles of the edges.

@@ -78,7 +78,7 @@ impl Set {
         }
     }
 
-    /// Whether each of so many columns by rows has exactly one point.
+    /// Whether each of this many columns by rows has exactly one point.
     fn is_even(&self, [columns, rows]: [usize; 2]) -> bool {
         let mut is_taken = vec![false; columns * rows];
         self.points.iter().all(|[x, y]| {

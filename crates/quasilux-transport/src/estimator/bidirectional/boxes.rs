@@ -121,7 +121,7 @@ impl BoxTree {
             let number = open[count];
             let node = self.node(number);
             let (a, b) = ((node.low - from) * inverse, (node.high - from) * inverse);
-            // What is no number, on a face of the box, counts as met.
+            // NaN, on a face of the box, counts as met.
             let near = a.min(b).max_element().max(0.0);
             let far = a.max(b).min_element().min(length_m);
             if near > far {

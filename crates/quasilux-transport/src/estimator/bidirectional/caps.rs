@@ -17,11 +17,11 @@ use super::plan::{FoundBy, Receiver, SUBPATHS};
 use super::samples::{crossings_of_discs, samples_at_emitters, samples_of_subpaths};
 use super::sources::PhotonFluxes;
 use crate::bsdf::Bsdf;
+use crate::control::watch::{POINTS_AT_ONCE, Watch};
 use crate::lights::SKY_MARGIN;
+use crate::sensors::Target;
 use crate::spectrum::Spectrum;
-use crate::stats::targets::Target;
 use crate::stats::unseen::unseen_lx;
-use crate::stats::watch::{POINTS_AT_ONCE, Watch};
 use crate::world::{Facet, World};
 pub(super) use of_indices::{SamplesOfIndex, index_totals};
 pub(super) use of_pixels::PixelCaps;
@@ -152,8 +152,8 @@ impl Caps {
         self.of_targets.iter().enumerate().map(of_target).collect()
     }
 
-    /// The same of the average over targets of which each has so many trials at least: an eye path
-    /// of one of m targets adds an m-th.
+    /// The same of the average over targets of which each has this many trials at least: an eye
+    /// path of one of m targets adds an m-th.
     pub(super) fn unseen_of_average_lx(&self, point_lx: &[f64], least_trials: f64) -> f64 {
         let m = point_lx.len().max(1) as f64;
         let mean = point_lx.iter().sum::<f64>() / m;
@@ -255,7 +255,7 @@ fn kinds<S: Spectrum>(
     let sky_lx = outside.map_or(0.0, |outside| PI * SKY_MARGIN * outside.brightest_cd_m2());
     let sun_lx = outside.map_or(0.0, |outside| outside.sun_brightness()[1]);
     let never = f64::INFINITY;
-    let images_hide = !context.hides.is_empty();
+    let images_hide = !context.caustic_ways.is_empty();
     let lamps = Kind {
         flux_lm: pointlikes_lm,
         eye_lx: surfaces.lit_by_pointlikes(engine),

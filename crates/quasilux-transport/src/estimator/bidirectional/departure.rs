@@ -20,7 +20,7 @@ pub(super) struct Departure<S> {
 impl<S: Spectrum> Departure<S> {
     /// Survives with the weight of its new direction as the probability, or 1 where that is more:
     /// what goes on then never carries more than before in its strongest channel, but where
-    /// surfaces give more than they get. `None` where it ends, or its weight is no number.
+    /// surfaces give more than they get. `None` where it ends, or its weight is NaN.
     pub(super) fn survive(
         world: &World<S>,
         at: &Interaction,

@@ -5,13 +5,13 @@ use super::plan::{FoundBy, Receiver, largest_disc_m2, receivers};
 use super::sources::{Photon, PhotonFluxes, Sources};
 use crate::bsdf::TransportMode;
 use crate::context::Context;
+use crate::control::watch::Watch;
 use crate::cutoff::Gain;
 use crate::importance::Copies;
 use crate::lights::LightKind;
+use crate::sensors::Target;
 use crate::spectrum::Spectrum;
 use crate::stats::tally::Quantum;
-use crate::stats::targets::Target;
-use crate::stats::watch::Watch;
 use crate::world::Interaction;
 use glam::DVec3;
 use std::f64::consts::PI;
@@ -60,7 +60,7 @@ impl<'l, 'a, S: Spectrum> Engine<'l, 'a, S> {
         })
     }
 
-    /// Adds a surface to the way of a subpath that came there along `-wo` after so many bounces;
+    /// Adds a surface to the way of a subpath that came there along `-wo` after this many bounces;
     /// whether it goes on from there.
     pub(super) fn grow(
         &self,

@@ -10,12 +10,14 @@ use super::sums::TargetSums;
 use super::unit::UnitSums;
 use crate::codec::{Reader, StateError, Sums, Writer, add_count, digest};
 use crate::context::Context;
+use crate::control::watch::Watch;
 use crate::estimator::Estimator;
 use crate::estimator::block::BlockFrame;
 use crate::estimator::exact::{ComputedLight, Exact, computed_light};
 use crate::estimator::progress::TargetProgress;
 use crate::importance::Copies;
-use crate::path::sections::WorkCounts;
+use crate::path::path_batch::WorkCounts;
+use crate::sensors::{by_sensor, targets};
 use crate::settings::{IntervalKind, Settings, Switch};
 use crate::spectrum::Spectrum;
 use crate::stats::caveat::Caveat;
@@ -23,9 +25,7 @@ use crate::stats::decisions::Decisions;
 use crate::stats::estimates::{Dimensions, Estimates, SensorEstimates, TermEstimates};
 use crate::stats::point_status::Evidence;
 use crate::stats::tally::{Quantum, Sum};
-use crate::stats::targets::{by_sensor, targets};
 use crate::stats::unseen::UnseenLight;
-use crate::stats::watch::Watch;
 use quasilux_scene::Scene;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
@@ -124,8 +124,8 @@ impl<'a, S: Spectrum> BidirectionalEstimator<'a, S> {
         self.quantum.value(sum) / self.progress.samples_of(target).max(1) as f64
     }
 
-    /// The illuminance at a target after so many indices of all replicates together; `None` without
-    /// any.
+    /// The illuminance at a target after this many indices of all replicates together; `None`
+    /// without any.
     pub(super) fn all_lx(&self, target: usize, indices: u64) -> Option<f64> {
         let replicates = self.replicates as usize;
         let own = &self.sums[target * replicates..][..replicates];

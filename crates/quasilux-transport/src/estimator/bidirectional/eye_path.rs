@@ -14,7 +14,7 @@ use crate::context::Context;
 use crate::cutoff::{Gain, MAX_EVENTS};
 use crate::lights::images::ImageSamples;
 use crate::lights::{Asking, ChoiceWork, EmitterPlace};
-use crate::path::sections::WorkCounts;
+use crate::path::path_batch::WorkCounts;
 use crate::path::subpath_weights::SubpathWeights;
 use crate::spectrum::Spectrum;
 use crate::world::frame::Frame;
@@ -122,7 +122,7 @@ impl<S: Spectrum> Default for EyePaths<S> {
 
 /// Who gets what paths find.
 pub(crate) trait Sink<S> {
-    /// Adds light that came to a section by so many surfaces and panes.
+    /// Adds light that came to a section by this many surfaces and panes.
     fn add(&mut self, section: usize, bounces: u32, light: S);
 
     /// The same of light that a photon brought.

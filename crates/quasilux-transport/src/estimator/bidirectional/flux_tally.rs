@@ -42,7 +42,7 @@ impl FluxTally {
         self.cut.add_signed(lm, quantum);
     }
 
-    /// The shares of what lamps emit; of so many subpaths what they found where light comes from
+    /// The shares of what lamps emit; of this many subpaths what they found where light comes from
     /// outside, which is drawn more or less evenly.
     pub(super) fn balance(
         &self,

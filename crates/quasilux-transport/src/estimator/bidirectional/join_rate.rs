@@ -9,8 +9,8 @@ use super::engine::Engine;
 use super::light_subpath::LightSubpaths;
 use super::plan::Receiver;
 use crate::context::Stream;
+use crate::control::watch::{POINTS_AT_ONCE, Watch};
 use crate::spectrum::Spectrum;
-use crate::stats::watch::{POINTS_AT_ONCE, Watch};
 use glam::DVec3;
 use quasilux_sampling::Sampler;
 

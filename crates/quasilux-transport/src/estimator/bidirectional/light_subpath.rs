@@ -217,7 +217,7 @@ impl<S: Spectrum> LightSubpaths<S> {
         Self { rays, endless, flux, ..Self::by_subpath(found, count) }
     }
 
-    /// Vertices of so many subpaths.
+    /// Vertices of this many subpaths.
     fn by_subpath(mut found: Vec<FoundVertex<S>>, count: usize) -> Self {
         found.sort_by_key(|it| it.subpath);
         let begin = |subpath: usize| found.partition_point(|it| it.subpath < subpath);

@@ -32,7 +32,7 @@ impl LightWeights {
         Self(self.0.map(change))
     }
 
-    /// After it was scattered along `wi`, having come from `wo`, in so many copies on average.
+    /// After it was scattered along `wi`, having come from `wo`, in this many copies on average.
     pub(super) fn scattered<S: Spectrum>(
         &self,
         bsdf: &Bsdf<S>,

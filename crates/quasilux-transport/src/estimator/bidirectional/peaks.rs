@@ -20,7 +20,7 @@ const MARGIN: f64 = 1.3;
 /// Cosines for which peaks of facets are known, each by this factor below the one before.
 const COSINES: u32 = 56;
 const COSINE_STEP: f64 = 0.840_896_415_253_714_6;
-/// Other directions that are looked at for each: so many a width of the facets, so far to both
+/// Other directions that are looked at for each: this many a width of the facets, so far to both
 /// sides, and evenly over all.
 const BY_WIDTH: i32 = 8;
 const WIDTHS: i32 = 12;

@@ -10,9 +10,9 @@ use super::asked_luminaires::nearest_luminaire_m;
 use super::nearest_emitter::EmittingFacets;
 use crate::bsdf::Bsdf;
 use crate::context::Context;
+use crate::control::watch::{POINTS_AT_ONCE, Watch};
+use crate::sensors::Target;
 use crate::spectrum::Spectrum;
-use crate::stats::targets::Target;
-use crate::stats::watch::{POINTS_AT_ONCE, Watch};
 use crate::world::grid_plane::GridPlane;
 use crate::world::{Interaction, RayOrigin, World};
 use glam::DVec3;
@@ -95,7 +95,7 @@ impl PhotonDisc {
     }
 }
 
-/// So many directions, evenly around in the plane with the normal `n`.
+/// This many directions, evenly around in the plane with the normal `n`.
 pub(super) fn around(n: DVec3, looks: u32) -> impl Iterator<Item = DVec3> {
     let across = n.any_orthonormal_vector();
     let beside = n.cross(across);

@@ -4,12 +4,12 @@
 use super::estimator::BidirectionalEstimator;
 use super::unit::{INDICES, Unit, UnitSums};
 use crate::codec::{Reader, StateError, Stored, Writer};
+use crate::control::observer::Snapshot;
+use crate::control::watch::{BlockCounts, Watch, split};
+use crate::control::workers::BlockSize;
 use crate::estimator::block::BlockFrame;
+use crate::sensors::snapshot;
 use crate::spectrum::Spectrum;
-use crate::stats::observer::Snapshot;
-use crate::stats::targets::snapshot;
-use crate::stats::watch::{BlockCounts, Watch, split};
-use crate::stats::workers::BlockSize;
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -39,7 +39,7 @@ impl Row {
     }
 
     /// Indices of a target of this chunk in all replicates together, those before the row included,
-    /// after so many units.
+    /// after this many units.
     fn indices_of(&self, chunk: u64, done: u64) -> u64 {
         let pairs = done.saturating_sub(chunk).div_ceil(self.chunks);
         let (whole, others) = (pairs / self.replicates, pairs % self.replicates);
@@ -75,7 +75,7 @@ impl<S: Spectrum> BidirectionalEstimator<'_, S> {
     /// Traces all units with the indices up to `samples`; `false` when the observer stopped it.
     pub(super) fn trace_up_to(&mut self, samples: u64, watch: &mut Watch<'_>) -> bool {
         let row = self.row(self.progress.samples..samples);
-        watch.foresee(row.len() * self.paths_of_a_unit());
+        watch.expect_work(row.len() * self.paths_of_a_unit());
         if let Some(is_done) = self.trace_by_workers(&row, samples, watch) {
             self.progress.complete(samples);
             return is_done;

@@ -24,7 +24,7 @@ impl TargetSums {
         Self { terms: vec![Sum::default(); terms].into(), ..Self::default() }
     }
 
-    /// Adds light that came by so many surfaces and panes.
+    /// Adds light that came by this many surfaces and panes.
     pub(super) fn add(&mut self, bounces: u32, lx: f64, quantum: Quantum) {
         let sum = if bounces == 0 { &mut self.direct } else { &mut self.indirect };
         sum.add(lx, quantum);

@@ -12,7 +12,7 @@ use glam::DVec3;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-/// The search ends where the bound is this many times what was found at most, or after so many
+/// The search ends where the bound is this many times what was found at most, or after this many
 /// steps.
 const CLOSENESS: f64 = 1.15;
 const STEPS: usize = 600;
@@ -123,7 +123,7 @@ fn search(
                     value.over_part(part)
                 }
             };
-            // Of what is no number nothing is known.
+            // Of NaN nothing is known.
             let bound = if bound.is_nan() { f64::INFINITY } else { bound };
             (bound > 0.0).then_some(Open { bound, what })
         }));

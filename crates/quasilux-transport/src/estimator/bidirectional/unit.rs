@@ -13,7 +13,7 @@ use super::partner::partners;
 use super::plan::{Receiver, SUBPATHS, connected};
 use super::sums::TargetSums;
 use crate::context::Stream;
-use crate::path::sections::WorkCounts;
+use crate::path::path_batch::WorkCounts;
 use crate::path::wave::WAVE;
 use crate::spectrum::Spectrum;
 use crate::stats::tally::Quantum;

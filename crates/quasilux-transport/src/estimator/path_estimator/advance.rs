@@ -5,12 +5,12 @@
 //! that goes on from a state finds what is left.
 
 use super::PathEstimator;
+use crate::control::watch::Watch;
 use crate::path::end::{GrowingMaps, PathEnd};
-use crate::path::sections::{PathSums, Piece, WorkCounts};
+use crate::path::path_batch::{PathSums, Piece, WorkCounts};
 use crate::path::wave::{PathWave, WAVE};
 use crate::spectrum::Spectrum;
 use crate::stats::scores::Scores;
-use crate::stats::watch::Watch;
 use rayon::prelude::*;
 use std::ops::Range;
 

@@ -3,13 +3,13 @@
 use super::advance::ROUND;
 use super::{PathEstimator, SharedLight};
 use crate::codec::{Reader, StateError, Writer};
+use crate::control::watch::{BlockCounts, Watch, split};
+use crate::control::workers::BlockSize;
 use crate::estimator::block::{BlockFrame, PathProgress};
 use crate::estimator::progress::TargetProgress;
-use crate::path::sections::{PathSums, Piece, WorkCounts};
+use crate::path::path_batch::{PathSums, Piece, WorkCounts};
 use crate::spectrum::Spectrum;
 use crate::stats::scores::Scores;
-use crate::stats::watch::{BlockCounts, Watch, split};
-use crate::stats::workers::BlockSize;
 use std::ops::Range;
 
 impl<S: Spectrum> PathEstimator<'_, S> {
@@ -91,18 +91,18 @@ impl<S: Spectrum> PathEstimator<'_, S> {
 }
 
 impl Piece {
-    /// Of no paths of these sections.
+    /// Of no paths of these batches.
     fn empty(numbers: Range<usize>) -> Self {
-        let sections = numbers.len();
+        let batches = numbers.len();
         Self {
             first: numbers.start,
-            sums: vec![PathSums::default(); sections],
-            scores: vec![Scores::default(); sections],
+            sums: vec![PathSums::default(); batches],
+            scores: vec![Scores::default(); batches],
             work: WorkCounts::default(),
         }
     }
 
-    /// Adds a piece of its sections.
+    /// Adds a piece of its batches.
     fn absorb(&mut self, piece: Self) {
         let first = piece.first - self.first;
         for (sums, more) in self.sums[first..].iter_mut().zip(piece.sums) {
@@ -121,7 +121,7 @@ impl Piece {
         out.value(&self.work);
     }
 
-    /// Of sections with numbers below `pairs`.
+    /// Of batches with numbers below `pairs`.
     fn read(from: &mut Reader<'_>, pairs: usize) -> Result<Self, StateError> {
         let (first, sums): (usize, Vec<PathSums>) = (from.value()?, from.value()?);
         let (scores, work): (Vec<Scores>, WorkCounts) = (from.value()?, from.value()?);

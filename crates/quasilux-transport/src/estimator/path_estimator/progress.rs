@@ -4,7 +4,7 @@ use super::PathEstimator;
 use crate::spectrum::Spectrum;
 
 impl<S: Spectrum> PathEstimator<'_, S> {
-    /// Photons and paths from here to so many indices.
+    /// Photons and paths from here to this many indices.
     pub(super) fn work_up_to(&self, samples: u64) -> u64 {
         let paths =
             (self.progress.growing().len() as u64).saturating_mul(u64::from(self.replicates));

@@ -4,11 +4,11 @@
 use super::PathEstimator;
 use crate::context::Context;
 use crate::lights::Asking;
+use crate::sensors::Target;
 use crate::spectrum::Spectrum;
 use crate::stats::interval::Interval;
 use crate::stats::point_status::Evidence;
 use crate::stats::schedule::MIN_SAMPLES;
-use crate::stats::targets::Target;
 
 impl<S: Spectrum> PathEstimator<'_, S> {
     /// Whether the paths of each target found light where they came to surfaces that reflect, and

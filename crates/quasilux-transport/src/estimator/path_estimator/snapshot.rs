@@ -5,12 +5,12 @@
 //! rest.
 
 use super::PathEstimator;
+use crate::control::observer::Snapshot;
 use crate::path::end::GrowingMaps;
-use crate::path::sections::PathSums;
+use crate::path::path_batch::PathSums;
+use crate::sensors::snapshot;
 use crate::spectrum::Spectrum;
-use crate::stats::observer::Snapshot;
 use crate::stats::tally::Sum;
-use crate::stats::targets::snapshot;
 use std::ops::Range;
 
 /// What a target shows after some paths, in lx; `None` where there were none to tell.

@@ -13,11 +13,11 @@ use crate::context::{Context, Stream};
 use crate::importance::{self, Plan, WeightWindows};
 use crate::photon::counts::PhotonCounts;
 use crate::photon::receiver::{PhotonReceiver, SeenPhoton};
-use crate::photon::trace::{Lead, Source, trace_photon};
+use crate::photon::trace::{PhotonSetup, Source, trace_photon};
+use crate::sensors::targets;
 use crate::settings::{Settings, Switch};
 use crate::spectrum::Spectrum;
 use crate::stats::efficiency::{Performance, WeightSums};
-use crate::stats::targets::targets;
 use crate::world::Interaction;
 use crate::world::flight::Flight;
 use quasilux_sampling::Sampler;
@@ -69,14 +69,14 @@ impl Pilots {
         photons: Range<u64>,
     ) -> Self {
         let points = context.points(0, Stream::WindowPilots);
-        let lead = Lead::by_chance(Source::Lights, windows);
+        let setup = PhotonSetup::by_chance(Source::Lights, windows);
         let piece = |first: u64| {
             let mut counts = PhotonCounts::default();
             let mut weights = Vec::new();
             for index in first..(first + PIECE).min(photons.end) {
                 let mut receiver = CounterWeights { receivers, weights: Vec::new() };
                 let sampler = Sampler::new(&points, index);
-                trace_photon(context, lead, sampler, &mut receiver, &mut counts);
+                trace_photon(context, setup, sampler, &mut receiver, &mut counts);
                 weights.extend(receiver.by_counter());
             }
             (weights, counts.rays)

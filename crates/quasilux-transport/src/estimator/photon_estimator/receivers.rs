@@ -22,7 +22,7 @@ const AS_NEAR: f64 = 0.9;
 /// Its edges are at most this share of the distance to the nearest light: light of a point in front
 /// differs by 0.5 % from the middle to the mean.
 const BESIDE_LIGHT: f64 = 1.0 / 8.0;
-/// They are at least so many hairs.
+/// They are at least this many hairs.
 const MIN_HAIRS: f64 = 8.0;
 
 /// What counts photons, the same for all replicates.

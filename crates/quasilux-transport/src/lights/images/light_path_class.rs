@@ -22,7 +22,7 @@ pub(crate) enum LightPathClass {
 }
 
 impl LightPathClass {
-    /// The trail after one more surface: `bsdf` on `facet`; `mirrored` where the photon stays on
+    /// The class after one more surface: `bsdf` on `facet`; `mirrored` where the photon stays on
     /// its side.
     pub(crate) fn after<S: Spectrum>(
         self,

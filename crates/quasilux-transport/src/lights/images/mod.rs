@@ -23,7 +23,7 @@ use crate::lights::{Asking, ChoiceWork, EmitterPlace, EmitterPoint, PointLikes};
 use crate::spectrum::Spectrum;
 use crate::world::World;
 use crate::world::vertex::Vertex;
-use crate::world::visibility::{Receiver, ShadowQueue};
+use crate::world::visibility::{LightRequest, ShadowQueue};
 use chain::{Links, UnfoldedPath};
 use emitters::EmitterImages;
 use glam::DVec3;
@@ -192,7 +192,7 @@ impl SpecularImages {
         &self,
         world: &World<S>,
         pointlikes: &PointLikes<'_>,
-        receivers: &[Receiver<'_, S>],
+        receivers: &[LightRequest<'_, S>],
         shadows: &mut ShadowQueue<S>,
         receive: impl FnMut(u32, S, u32),
     ) {
@@ -200,7 +200,7 @@ impl SpecularImages {
             return;
         }
         let mut found = ImageSamples::default();
-        for Receiver { who, vertex } in receivers {
+        for LightRequest { who, vertex } in receivers {
             let query = ImageQuery { world, pointlikes, who: *who, vertex };
             self.find(&query, shadows.max_bounces, Thinning::NONE, |_, _, _| 1.0, &mut found);
             for light_sample in &found.light_samples {

@@ -32,7 +32,7 @@ const BESIDE_OPENINGS: [f64; 2] = [0.03, 0.9];
 const MAX_BESIDE_LAMPS: f64 = 4.0;
 /// Squares that count photons around sensor points reach so far at most, as a share of the scene.
 const AROUND_SENSORS: f64 = 1.0 / 16.0;
-/// Lines are followed from so many radii of the box.
+/// Lines are followed from this many radii of the box.
 const REACH: f64 = 4.0;
 
 /// What shines beside it, and who counts the photons.

@@ -33,7 +33,7 @@ pub(super) fn few(triangles: Vec<[DVec3; 3]>) -> Vec<[DVec3; 3]> {
     groups.iter().flat_map(|group| halves(group)).collect()
 }
 
-/// Groups of triangles that lie in one plane, up to so many of the finest steps.
+/// Groups of triangles that lie in one plane, up to this many of the finest steps.
 fn in_planes(
     triangles: &[[DVec3; 3]],
     origin: DVec3,

@@ -1,6 +1,6 @@
 //! Ends of a path on an illumination map.
 
-use super::{Onward, Path};
+use super::{ContinuationWeights, Path};
 use crate::context::Context;
 use crate::spectrum::Spectrum;
 use crate::world::Interaction;
@@ -12,7 +12,7 @@ impl<S: Spectrum> Path<'_, S> {
         context: &Context<'_, S>,
         bounces: u32,
         at: &Interaction,
-    ) -> Option<Onward> {
+    ) -> Option<ContinuationWeights> {
         let end = self.maps.end.filter(|_| context.world.bsdf(at).keeps_illuminance())?;
         if context.max_bounces.is_some() && bounces > 0 {
             // The light on the map has more bounces than are left.
@@ -28,6 +28,6 @@ impl<S: Spectrum> Path<'_, S> {
         }
         // The direction to a light that the next surface emits is part of the direct light here, so
         // it counts in every path; so does that to light from outside, through panes too.
-        Some(Onward { everything: 0.0, ..Onward::ALL })
+        Some(ContinuationWeights { everything: 0.0, ..ContinuationWeights::ALL })
     }
 }

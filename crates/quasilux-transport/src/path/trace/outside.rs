@@ -3,11 +3,11 @@
 //! What comes to a vertex straight or through panes is no matter of maps: the vertex asks for it,
 //! and paths that end on a map still go on through panes for their share of it.
 
-use super::{Onward, Path, PathWork};
+use super::{ContinuationWeights, Path, PathWork};
 use crate::bsdf::{Bsdf, BsdfSample};
 use crate::context::Context;
 use crate::lights::{Asking, OnwardDirection, OutsideLight, SunSample};
-use crate::path::daylight::{Daylight, DaylightSearch, Whence};
+use crate::path::daylight::{Daylight, DaylightSearch, OutsideSource};
 use crate::purpose::Purpose;
 use crate::spectrum::Spectrum;
 use crate::world::frame::Frame;
@@ -36,7 +36,13 @@ pub(super) struct OutsideFactors<S> {
 impl<S: Spectrum> OutsideFactors<S> {
     /// After a surface that sends on the part `weight`, in all `beta`; `is_straight` where it is a
     /// pane that let the path through.
-    pub(super) fn after(self, beta: S, weight: S, onward: &Onward, is_straight: bool) -> Self {
+    pub(super) fn after(
+        self,
+        beta: S,
+        weight: S,
+        onward: &ContinuationWeights,
+        is_straight: bool,
+    ) -> Self {
         if is_straight {
             let past_panes = self.past_panes * weight * onward.past_panes;
             Self { here: past_panes, past_panes }
@@ -125,7 +131,7 @@ impl<S: Spectrum> Path<'_, S> {
             let share = if vertex.is_sensor() { onward_share(search) } else { 0.0 };
             let sample = outside.light_sample(vertex, share, u);
             if let (Some(daylight), Some(sample)) = (&mut self.daylight, &sample) {
-                let whence = Whence::Outside(sample.direction);
+                let whence = OutsideSource::Outside(sample.direction);
                 daylight.note_asked(whence, vertex.reflects(sample.direction));
             }
             self.ask(sample, vertex, work);
@@ -158,7 +164,7 @@ impl<S: Spectrum> Path<'_, S> {
         daylight.search.suns.samples(outside, vertex, u, suns, |sample| {
             let SunSample { sun, place, light_sample } = sample;
             let is_reflected = vertex.reflects(light_sample.direction);
-            daylight.note_asked(Whence::Sun(sun, place), is_reflected);
+            daylight.note_asked(OutsideSource::Sun(sun, place), is_reflected);
             shadows.ask(self.number, vertex, &light_sample);
         });
     }
@@ -228,8 +234,8 @@ impl<S: Spectrum> Path<'_, S> {
         let light = self.beta.outside.here * found_cd_m2;
         if let Some(daylight) = &self.daylight {
             let whence = match self.last.asked_outside {
-                Some(_) => Whence::Outside(self.direction),
-                None => Whence::Mirrored(self.direction),
+                Some(_) => OutsideSource::Outside(self.direction),
+                None => OutsideSource::Mirrored(self.direction),
             };
             self.light.found.from_outside.push(daylight.found(whence, light.luminance()));
             return;

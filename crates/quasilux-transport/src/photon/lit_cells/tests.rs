@@ -9,13 +9,13 @@
 use super::*;
 use crate::bsdf::TransportMode;
 use crate::context::Stream;
+use crate::control::watch::Watch;
 use crate::photon::batch::{PhotonBatch, trace_photons};
 use crate::photon::counts::PhotonCounts;
 use crate::photon::order::PhotonOrder;
 use crate::photon::receiver::{PhotonReceiver, SeenPhoton};
-use crate::photon::trace::{Lead, Source, trace_photon};
+use crate::photon::trace::{PhotonSetup, Source, trace_photon};
 use crate::settings::Settings;
-use crate::stats::watch::Watch;
 use glam::DVec3;
 use quasilux_scene::bsdf::{Conductor, Dielectric, Diffuse, Mirror, Plastic, Translucent};
 use quasilux_scene::light::{AreaLight, PointLight};
@@ -152,12 +152,12 @@ fn landed<S: Spectrum>(
         Source::Lights => Stream::Photons,
         Source::LitCells(_) => Stream::Paths(0),
     };
-    let lead = Lead::by_chance(source, None);
+    let setup = PhotonSetup::by_chance(source, None);
     let points = context.points(replicate, stream);
     let mut landed = Landed { by_wall: [[0.0; MAX_BOUNCES]; 7], total: 0.0 };
     for index in 0..photons {
         let sampler = Sampler::new(&points, index);
-        trace_photon(context, lead, sampler, &mut landed, &mut PhotonCounts::default());
+        trace_photon(context, setup, sampler, &mut landed, &mut PhotonCounts::default());
     }
     let each = 1.0 / photons as f64;
     landed.by_wall = landed.by_wall.map(|row| row.map(|share| share * each));
@@ -284,7 +284,7 @@ fn traced(scene: &Scene, order: PhotonOrder, threads: usize) -> (Vec<u64>, Photo
         replicates: 0..1,
         indices: 0..10_000,
         order,
-        lead: Lead::by_chance(Source::LitCells(&cells), None),
+        setup: PhotonSetup::by_chance(Source::LitCells(&cells), None),
     };
     let landed = Mutex::new(vec![0; 14]);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();

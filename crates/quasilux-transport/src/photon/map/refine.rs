@@ -13,14 +13,14 @@ use super::blocks::Blocks;
 use super::layout::{MapLayout, MapPoint};
 use super::tally::max_bounces;
 use crate::context::{Context, Stream};
+use crate::control::watch::Watch;
 use crate::photon::batch::{PhotonBatch, trace_photons};
 use crate::photon::counts::PhotonCounts;
 use crate::photon::order::PhotonOrder;
 use crate::photon::receiver::{PhotonReceiver, SeenPhoton};
-use crate::photon::trace::{Lead, Source};
+use crate::photon::trace::{PhotonSetup, Source};
 use crate::settings::{Reconstruction, Settings};
 use crate::spectrum::Spectrum;
-use crate::stats::watch::Watch;
 use crate::world::Interaction;
 use crate::world::subdivision::{SubTriangle, locate_in_quarters};
 use std::ops::Range;
@@ -87,7 +87,7 @@ impl Pilot<'_> {
             replicates: 0..1,
             indices,
             order,
-            lead: Lead::by_chance(Source::Lights, None),
+            setup: PhotonSetup::by_chance(Source::Lights, None),
         };
         // Before the first checkpoint the observer stops nothing, so there are always counts.
         trace_photons(context, &batch, |_| self, watch).unwrap_or_default()

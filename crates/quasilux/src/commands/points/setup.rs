@@ -82,7 +82,7 @@ impl Setup {
 pub(super) enum Measure {
     /// The star discrepancy in two dimensions.
     Star,
-    /// The centred discrepancy in so many dimensions.
+    /// The centred discrepancy in this many dimensions.
     Centred(usize),
     /// The relative error of a mean.
     Integration(Integrand),

@@ -111,7 +111,7 @@ fn attack(number: usize, folder: &Folder, seeds: &[Seed], faults: &mut String) -
     run
 }
 
-/// So many attacks; some are refused, and some are not.
+/// This many attacks; some are refused, and some are not.
 fn attack_often(count: usize, folder: &Folder, seeds: &[Seed]) {
     let mut faults = String::new();
     let runs = (0..count).map(|number| attack(number, folder, seeds, &mut faults));

@@ -26,7 +26,7 @@ struct Fault {
     /// Whether the signal waits for what the step keeps of itself.
     waits: bool,
     delay: Duration,
-    /// The disk is full behind so many blocks of a file.
+    /// The disk is full behind this many blocks of a file.
     full_behind: Option<usize>,
     /// Files have another time before the step goes on, in years.
     clock: Option<u64>,

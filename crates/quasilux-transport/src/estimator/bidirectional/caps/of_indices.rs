@@ -29,7 +29,7 @@ use crate::spectrum::Spectrum;
 use crate::stats::certified::IndexTotals;
 use quasilux_sampling::Sequence;
 
-/// Light vertices that are left over where one of so many is chosen, as far as they count: a
+/// Light vertices that are left over where one of this many is chosen, as far as they count: a
 /// connection adds what as many candidates would, times a stride.
 const ROUNDED_UP: f64 = 3.0;
 /// Longer light subpaths are not reckoned with.
@@ -64,7 +64,7 @@ impl SamplesOfIndex {
         (goes_on < 1.0 && vertices.is_finite()).then_some(Self { vertices, goes_on, kinds, lamps })
     }
 
-    /// The sum of the table, and what it leaves out, after so many indices.
+    /// The sum of the table, and what it leaves out, after this many indices.
     fn most(&self, is_cell: bool, trials: f64) -> Most {
         let &Self { vertices: k, goes_on, kinds, lamps } = self;
         let eye_vertices = FAVOURED as f64 + k;

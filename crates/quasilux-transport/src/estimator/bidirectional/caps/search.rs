@@ -4,14 +4,14 @@
 use super::surfaces::{Peaks, Surfaces};
 use crate::bsdf::TransportMode;
 use crate::context::Context;
+use crate::control::watch::Watch;
 use crate::estimator::bidirectional::engine::Engine;
 use crate::estimator::bidirectional::light_subpath::is_narrow;
 use crate::estimator::bidirectional::plan::{JoinEdge, Receiver};
 use crate::lights::Asking;
 use crate::scenes::{diffuse, point_light, points, room};
+use crate::sensors::targets;
 use crate::settings::{EstimatorKind, Settings};
-use crate::stats::targets::targets;
-use crate::stats::watch::Watch;
 use crate::world::Interaction;
 use crate::world::frame::Frame;
 use glam::DVec3;

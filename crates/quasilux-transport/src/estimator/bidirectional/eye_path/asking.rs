@@ -313,7 +313,7 @@ struct Connection<'l, S> {
 
 impl<S: Spectrum> EyeVertex<'_, '_, S> {
     /// The techniques that leave this vertex and more to light subpaths, over the density with
-    /// which light that comes from `direction` makes it; so many copies leave the place that it
+    /// which light that comes from `direction` makes it; this many copies leave the place that it
     /// comes from, one a light.
     fn to_eye(&self, direction: DVec3, found: FoundBy, copies_there: f64) -> f64 {
         let copied = self.copies / copies_there;

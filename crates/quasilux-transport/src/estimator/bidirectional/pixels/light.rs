@@ -5,7 +5,7 @@ use super::{PixelTracer, Spectrum};
 use crate::context::Stream;
 use crate::estimator::bidirectional::light_subpath::{KeptFlight, LightSubpaths};
 use crate::estimator::bidirectional::partner::partners;
-use crate::path::sections::WorkCounts;
+use crate::path::path_batch::WorkCounts;
 use quasilux_sampling::Sampler;
 use std::ops::Range;
 
@@ -18,7 +18,7 @@ const MIN_PHOTONS: u64 = 1 << 11;
 pub(crate) const MAX_PHOTONS: u64 = 1 << 13;
 const PIXELS_A_PHOTON: usize = 16;
 
-/// Those of a picture of so many pixels.
+/// Those of a picture of this many pixels.
 pub(super) fn photons(pixels: usize) -> u64 {
     let wanted = (pixels / PIXELS_A_PHOTON).next_power_of_two() as u64;
     wanted.clamp(MIN_PHOTONS, MAX_PHOTONS)

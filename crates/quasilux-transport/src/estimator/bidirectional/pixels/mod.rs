@@ -23,9 +23,9 @@ use super::light_subpath::is_narrow;
 use super::nearest_emitter::EmittingFacets;
 use super::plan::Receiver;
 use crate::context::Context;
+use crate::control::watch::Watch;
 use crate::spectrum::Spectrum;
 use crate::stats::unseen::unseen_lx;
-use crate::stats::watch::Watch;
 use crate::world::World;
 use glam::DVec3;
 use light::photons;
@@ -54,7 +54,7 @@ pub(crate) trait PixelSink<S>: Sink<S> {
 }
 
 impl<'a, S: Spectrum> PixelTracer<'a, S> {
-    /// For a picture of so many pixels; `None` when the observer stopped it.
+    /// For a picture of this many pixels; `None` when the observer stopped it.
     pub(crate) fn new(
         context: &'a Context<'a, S>,
         pixels: usize,
@@ -74,7 +74,7 @@ impl<'a, S: Spectrum> PixelTracer<'a, S> {
     }
 
     /// Light in cd/m^2 at most, with
-    /// [`UNSEEN_CONFIDENCE`](crate::unseen::UNSEEN_CONFIDENCE), by ways on which none of so many
+    /// [`UNSEEN_CONFIDENCE`](crate::unseen::UNSEEN_CONFIDENCE), by ways on which none of this many
     /// paths lay, nor a photon on discs of this area at least.
     pub(crate) fn unseen_cd_m2(&self, paths: f64, disc_m2: f64) -> f64 {
         unseen_lx(self.caps.most_cd_m2(disc_m2), paths)

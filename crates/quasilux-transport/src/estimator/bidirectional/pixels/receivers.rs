@@ -6,16 +6,16 @@ use super::{DVec3, PixelTracer, Spectrum, World};
 use crate::estimator::bidirectional::plan::{
     PhotonDisc, Receiver, around, largest_disc_m2, largest_radius_m, per_sure_before_pilots_m2,
 };
-use crate::path::sections::WorkCounts;
-use crate::stats::targets::Target;
+use crate::path::path_batch::WorkCounts;
+use crate::sensors::Target;
 use crate::world::Interaction;
 use quasilux_bvh::{Hit, RayQuery};
 
 /// Directions in which walls are looked for in the plane of a disc.
 const LOOKS: u32 = 16;
 
-/// A place in the open, where so many photons of an index count that come from narrow surfaces; its
-/// rate of joins holds until pilots know more.
+/// A place in the open, where this many photons of an index count that come from narrow surfaces;
+/// its rate of joins holds until pilots know more.
 pub(super) fn largest_receiver<S: Spectrum>(world: &World<S>, photons: Option<u64>) -> Receiver {
     Receiver {
         target: Target::Point { position: DVec3::ZERO, normal: DVec3::Z },

@@ -8,8 +8,8 @@ use super::{DVec3, PixelSink, PixelTracer, Spectrum};
 use crate::estimator::bidirectional::eye_path::{EyePaths, Sink, Start};
 use crate::estimator::bidirectional::joins::{JoinWork, Joiner};
 use crate::estimator::bidirectional::plan::connected;
+use crate::path::path_batch::WorkCounts;
 use crate::path::pixel_rays::PixelRays;
-use crate::path::sections::WorkCounts;
 use crate::path::wave::WAVE;
 use crate::world::vertex::{Surface, Vertex};
 

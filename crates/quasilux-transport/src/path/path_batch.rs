@@ -1,4 +1,4 @@
-//! Sections of paths, one target in one replicate each, that are traced in one wave, and their
+//! Batches of paths, one target in one replicate each, that are traced in one wave, and their
 //! sums.
 
 use crate::codec::{Sums, add_count, histogram};
@@ -10,10 +10,10 @@ use crate::path::trace::PathResult;
 use crate::path::wave::PathWave;
 use crate::photon::caustics::CausticLookup;
 use crate::purpose::Purpose;
+use crate::sensors::Target;
 use crate::spectrum::Spectrum;
 use crate::stats::scores::Scores;
 use crate::stats::tally::{Quantum, Sum};
-use crate::stats::targets::Target;
 use quasilux_sampling::{DimensionHistogram, PointSet, Sampler};
 use serde::{Deserialize, Serialize};
 use std::ops::{AddAssign, Range};
@@ -40,7 +40,7 @@ pub(crate) struct WorkCounts {
 }
 
 /// Some paths of one target in one replicate.
-pub(crate) struct Section<'g, S> {
+pub(crate) struct PathBatch<'g, S> {
     /// Which of all pairs of target and replicate.
     pub(crate) number: usize,
     pub(crate) target: Target,
@@ -50,32 +50,32 @@ pub(crate) struct Section<'g, S> {
     pub(crate) indices: Range<u64>,
 }
 
-/// What the paths of neighbouring sections found.
+/// What the paths of neighbouring batches found.
 pub(crate) struct Piece {
-    /// Number of the first section.
+    /// Number of the first batch.
     pub(crate) first: usize,
-    /// Of each section.
+    /// Of each batch.
     pub(crate) sums: Vec<PathSums>,
     /// The same, by single paths.
     pub(crate) scores: Vec<Scores>,
     pub(crate) work: WorkCounts,
 }
 
-/// Traces the paths of at least one section together; the numbers of sections follow each other.
-pub(crate) fn trace_sections<S: Spectrum>(
+/// Traces the paths of at least one batch together; the numbers of batches follow each other.
+pub(crate) fn trace_batches<S: Spectrum>(
     context: &Context<'_, S>,
-    sections: &[Section<'_, S>],
+    batches: &[PathBatch<'_, S>],
     quantum: Quantum,
     wave: &mut PathWave<S>,
 ) -> Piece {
-    let starts = sections.iter().flat_map(|section| section.starts(context));
+    let starts = batches.iter().flat_map(|batch| batch.starts(context));
     let mut paths = wave.trace(context, starts);
     let mut paths = paths.iter_mut();
     let mut work = WorkCounts { rays: wave.take_rays(), ..WorkCounts::default() };
-    let mut all_scores = Vec::with_capacity(sections.len());
-    let mut add = |section: &Section<'_, S>| {
+    let mut all_scores = Vec::with_capacity(batches.len());
+    let mut add = |batch: &PathBatch<'_, S>| {
         let (mut sums, mut scores) = (PathSums::default(), Scores::default());
-        for path in paths.by_ref().take(section.len()) {
+        for path in paths.by_ref().take(batch.len()) {
             let path = path.end();
             sums.add(&path, quantum);
             let all = path.found.direct + path.found.indirect;
@@ -85,11 +85,11 @@ pub(crate) fn trace_sections<S: Spectrum>(
         all_scores.push(scores);
         sums
     };
-    let sums = sections.iter().map(&mut add).collect();
-    Piece { first: sections[0].number, sums, scores: all_scores, work }
+    let sums = batches.iter().map(&mut add).collect();
+    Piece { first: batches[0].number, sums, scores: all_scores, work }
 }
 
-impl<S: Spectrum> Section<'_, S> {
+impl<S: Spectrum> PathBatch<'_, S> {
     fn len(&self) -> usize {
         (self.indices.end - self.indices.start) as usize
     }

@@ -36,21 +36,21 @@ pub(super) struct PictureSums {
 }
 
 /// Takes what paths of one replicate find.
-pub(super) struct Developer<'t> {
+pub(super) struct TileSink<'t> {
     pub(super) found: &'t mut BlockSums,
     pub(super) replicate: u32,
     pub(super) replicates: u32,
     pub(super) quantum: Quantum,
 }
 
-impl Developer<'_> {
+impl TileSink<'_> {
     /// Of a pixel of the block.
     fn sums(&mut self, pixel: usize) -> &mut PixelSums {
         &mut self.found.sums[pixel * self.replicates as usize + self.replicate as usize]
     }
 }
 
-impl<S: Spectrum> Sink<S> for Developer<'_> {
+impl<S: Spectrum> Sink<S> for TileSink<'_> {
     fn add(&mut self, pixel: usize, _bounces: u32, light: S) {
         let quantum = self.quantum;
         self.sums(pixel).add(light, quantum);
@@ -63,7 +63,7 @@ impl<S: Spectrum> Sink<S> for Developer<'_> {
     }
 }
 
-impl<S: Spectrum> PixelSink<S> for Developer<'_> {
+impl<S: Spectrum> PixelSink<S> for TileSink<'_> {
     fn arrive(&mut self, pixel: usize, disc_m2: f64) {
         self.sums(pixel).reflected += 1;
         let least_m2 = &mut self.found.least_disc_m2[pixel];
@@ -76,7 +76,7 @@ impl PictureSums {
         Self { cd_m2: vec![0.0; replicates as usize], merged_cd_m2: 0.0, invalid: 0 }
     }
 
-    /// Adds a block with so many paths of each pixel in each replicate.
+    /// Adds a block with this many paths of each pixel in each replicate.
     pub(super) fn add<S: Spectrum>(&mut self, block: &BlockSums, samples: u64, quantum: Quantum) {
         let mut of_block = vec![PixelSums::default(); self.cd_m2.len()];
         for own in block.sums.chunks_exact(of_block.len()) {
@@ -97,7 +97,7 @@ impl PixelSums {
         }
     }
 
-    /// The mean of so many paths.
+    /// The mean of this many paths.
     pub(super) fn mean<S: Spectrum>(&self, samples: u64, quantum: Quantum) -> S {
         S::from_channels(|channel| quantum.value(self.channels[channel]) / samples as f64)
     }

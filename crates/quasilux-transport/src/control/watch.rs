@@ -1,9 +1,9 @@
 //! Counters of a run, and the observer behind them.
 
 use crate::codec::{Reader, StateError, Writer};
+use crate::control::observer::{Control, Observer, PictureProgress, Progress, Snapshot};
+use crate::control::workers::{self, BlockSize, Received, Workers};
 use crate::stats::estimates::Estimates;
-use crate::stats::observer::{Control, Observer, PictureProgress, Progress, Snapshot};
-use crate::stats::workers::{self, BlockSize, Received, Workers};
 use rayon::prelude::*;
 use serde::Serialize;
 use std::ops::Range;
@@ -155,7 +155,7 @@ impl<'o> Watch<'o> {
         goes_on && is_sound
     }
 
-    /// A range of indices, each of so many photons or paths, in pieces between which states are
+    /// A range of indices, each of this many photons or paths, in pieces between which states are
     /// kept; in one where there are none.
     pub(crate) fn pieces(
         &self,
@@ -267,7 +267,7 @@ impl<'o> Watch<'o> {
 
     /// Says how many photons and paths come before the next checkpoint; only the first one, about
     /// which nothing else is known, is foreseen.
-    pub(crate) fn foresee(&mut self, photons_and_paths: u64) {
+    pub(crate) fn expect_work(&mut self, photons_and_paths: u64) {
         self.to_first = photons_and_paths;
         self.before_first = self.progress.photons.saturating_add(self.progress.paths);
     }

@@ -1,36 +1,36 @@
 //! Pictures, from their first pass to their last.
 //!
-//! A picture comes after the sensors, in passes, each from scratch (`run/pixels.rs`). It is done
-//! when it is known well enough ([`CameraEstimates::relative_half_width`]), or when it has the
-//! wanted number of paths; only complete passes are looked at. The first has one path a pixel in
-//! each replicate and tells where more are needed (`run/pass.rs`), so most of the work is in the
-//! last. When the observer stops a pass, the one before is the picture; before the first there is
-//! none.
+//! A picture comes after the sensors, in passes, each from scratch (`pictures/integrator.rs`). It
+//! is done when it is known well enough ([`CameraEstimates::relative_half_width`]), or when it has
+//! the wanted number of paths; only complete passes are looked at. The first has one path a pixel
+//! in each replicate and tells where more are needed (`pictures/pass.rs`), so most of the work is
+//! in the last. When the observer stops a pass, the one before is the picture; before the first
+//! there is none.
 
 use crate::context::Context;
-use crate::path::sections::WorkCounts;
-use crate::run::pass::Pass;
-use crate::run::pixels::{Darkroom, Exposure, Step};
+use crate::control::observer::PictureProgress;
+use crate::control::watch::Watch;
+use crate::path::path_batch::WorkCounts;
+use crate::pictures::integrator::{PassResult, PictureIntegrator, Step};
+use crate::pictures::pass::Pass;
 use crate::settings::Settings;
 use crate::spectrum::Spectrum;
 use crate::stats::caveat::Caveat;
 use crate::stats::estimates::Estimates;
-use crate::stats::observer::PictureProgress;
 use crate::stats::picture::CameraEstimates;
-use crate::stats::watch::Watch;
 use quasilux_scene::{Camera, Scene};
 
 /// Wanted of a picture where nobody says anything else.
 const REL_TOL: f64 = 0.05;
 /// Paths of each pixel in each replicate at most, where only a tolerance is wanted.
 const MAX_SAMPLES: u64 = 1 << 12;
-/// Before so many of them no picture is called done: what few of them find says little of the rest;
-/// of plain paths, and of bidirectional ones.
+/// Before this many of them no picture is called done: what few of them find says little of the
+/// rest; of plain paths, and of bidirectional ones.
 const MIN_SAMPLES: u64 = 4;
 const MIN_SAMPLES_OF_BIDIRECTIONAL: u64 = 2;
 /// Light of photons is told above this part of the tolerance.
 const BLURRED: f64 = 0.1;
-/// Where half-widths are so many times the tolerance, one pass does not know what another needs.
+/// Where half-widths are this many times the tolerance, one pass does not know what another needs.
 const FAR: f64 = 8.0;
 /// Where nobody knows what is needed, the number of paths grows by this factor from pass to pass.
 const GROWTH: u64 = 16;
@@ -47,21 +47,21 @@ pub(crate) fn add_pictures<S: Spectrum>(
 ) {
     let mut work = WorkCounts::default();
     for (number, camera) in scene.cameras.iter().enumerate() {
-        let wish = Wish::new(camera, settings);
+        let goal = PictureGoal::new(camera, settings);
         let replicates = settings.effective_replicates() as usize;
-        let mut taken = Exposure::nothing(wish.rel_tol, replicates);
-        let at = PictureProgress { camera: number, rel_tol: wish.rel_tol, ..Default::default() };
+        let mut taken = PassResult::nothing(goal.rel_tol, replicates);
+        let at = PictureProgress { camera: number, rel_tol: goal.rel_tol, ..Default::default() };
         // Where time is over, no camera begins.
         let begins = watch.tick_picture(0, 0, at, None);
-        let darkroom = || Darkroom::new(context, settings, number as u32, camera, watch);
-        if let Some(darkroom) = begins.then(darkroom).flatten() {
-            let mut sitting = Sitting { number, wish, darkroom, traced: 0.0 };
-            taken = sitting.take(taken, &mut work, watch);
-            taken.invalid += sitting.darkroom.invalid_photons();
+        let integrator = || PictureIntegrator::new(context, settings, number as u32, camera, watch);
+        if let Some(integrator) = begins.then(integrator).flatten() {
+            let mut camera_run = CameraRun { number, goal, integrator, traced: 0.0 };
+            taken = camera_run.take(taken, &mut work, watch);
+            taken.invalid += camera_run.integrator.invalid_photons();
         }
-        let Exposure { figures, invalid, .. } = taken;
-        estimates.caveats.extend(wish.shortfall(camera, &figures));
-        estimates.caveats.extend(wish.blur(camera, &figures));
+        let PassResult { figures, invalid, .. } = taken;
+        estimates.caveats.extend(goal.shortfall(camera, &figures));
+        estimates.caveats.extend(goal.blur(camera, &figures));
         estimates.invalid_contributions += invalid;
         estimates.cameras.push(figures);
     }
@@ -79,17 +79,17 @@ pub(crate) fn add_pictures<S: Spectrum>(
 
 /// What is wanted of a picture.
 #[derive(Clone, Copy, Debug)]
-struct Wish {
+struct PictureGoal {
     rel_tol: Option<f64>,
     /// Paths of each pixel in each replicate, at most.
     most: u64,
-    /// Before so many it is not done.
+    /// Before this many it is not done.
     min_samples: u64,
     /// Whether only all of them make a picture.
     all_or_nothing: bool,
 }
 
-impl Wish {
+impl PictureGoal {
     fn new(camera: &Camera, settings: &Settings) -> Self {
         let min_samples = match settings.estimator.is_bounded() {
             true => MIN_SAMPLES_OF_BIDIRECTIONAL,
@@ -124,7 +124,7 @@ impl Wish {
     }
 
     /// The pass that follows a complete one; `None` where that is the last.
-    fn next(&self, pass: &Pass, taken: &Exposure) -> Option<Pass> {
+    fn next(&self, pass: &Pass, taken: &PassResult) -> Option<Pass> {
         let figures = &taken.figures;
         let is_last = self.rel_tol.is_some_and(|rel_tol| pass.is_up_to(rel_tol));
         if figures.is_done || (is_last && taken.is_limited()) || pass.least >= self.most {
@@ -186,29 +186,29 @@ impl Wish {
 }
 
 /// A picture while it is taken.
-struct Sitting<'a, S> {
+struct CameraRun<'a, S> {
     number: usize,
-    wish: Wish,
-    darkroom: Darkroom<'a, S>,
+    goal: PictureGoal,
+    integrator: PictureIntegrator<'a, S>,
     /// Paths of a pixel in a replicate in the passes so far, on average.
     traced: f64,
 }
 
-impl<S: Spectrum> Sitting<'_, S> {
+impl<S: Spectrum> CameraRun<'_, S> {
     /// Pass after pass up to what is wanted, or until the observer stops one.
     fn take(
         &mut self,
-        mut taken: Exposure,
+        mut taken: PassResult,
         work: &mut WorkCounts,
         watch: &mut Watch<'_>,
-    ) -> Exposure {
-        let mut next = Some(self.wish.first());
+    ) -> PassResult {
+        let mut next = Some(self.goal.first());
         while let Some(pass) = next {
-            let Some(exposure) = self.pass(&pass, &taken, work, watch) else { break };
-            taken = exposure;
-            taken.figures.is_done = self.wish.is_done(&taken.figures);
-            taken.figures.rel_tol = self.wish.rel_tol;
-            next = self.wish.next(&pass, &taken);
+            let Some(result) = self.pass(&pass, &taken, work, watch) else { break };
+            taken = result;
+            taken.figures.is_done = self.goal.is_done(&taken.figures);
+            taken.figures.rel_tol = self.goal.rel_tol;
+            next = self.goal.next(&pass, &taken);
         }
         taken
     }
@@ -217,24 +217,24 @@ impl<S: Spectrum> Sitting<'_, S> {
     fn pass(
         &mut self,
         pass: &Pass,
-        before: &Exposure,
+        before: &PassResult,
         work: &mut WorkCounts,
         watch: &mut Watch<'_>,
-    ) -> Option<Exposure> {
-        let expected = self.darkroom.expected(pass);
+    ) -> Option<PassResult> {
+        let expected = self.integrator.expected(pass);
         let at = PictureProgress {
             camera: self.number,
             samples: expected.round() as u64,
             complete_samples: before.figures.samples,
             relative_half_width: before.figures.relative_half_width(),
-            rel_tol: self.wish.rel_tol,
+            rel_tol: self.goal.rel_tol,
         };
-        let later = self.wish.later(pass, &before.figures);
+        let later = self.goal.later(pass, &before.figures);
         watch.begin_pass(at);
         let photons = expected.ceil() as u64 * CAUSTIC_PHOTONS;
-        self.darkroom.trace_caustics(photons, work, watch)?;
+        self.integrator.trace_caustics(photons, work, watch)?;
         let traced = self.traced;
-        self.darkroom.expose(pass, work, |Step { paths, rays, done, left }| {
+        self.integrator.render_pass(pass, work, |Step { paths, rays, done, left }| {
             self.traced = traced + done;
             let whole = later.map(|later| self.traced + left + later);
             watch.tick_picture(paths, rays, at, whole.map(|whole| self.traced / whole))

@@ -61,7 +61,7 @@ pub(super) struct KnownBlock {
 }
 
 impl Pass {
-    /// So many paths of each pixel.
+    /// This many paths of each pixel.
     pub(super) fn of_all(samples: u64) -> Self {
         Self { first: 0, least: samples, most: samples, targets: None }
     }
@@ -105,7 +105,7 @@ impl Pass {
         self.targets.as_ref().map_or(self.most as f64, |targets| targets.of_blocks[block].samples)
     }
 
-    /// Whether pixels are looked at after so many paths: points of nets are balanced best in
+    /// Whether pixels are looked at after this many paths: points of nets are balanced best in
     /// numbers with few binary digits other than 0.
     pub(super) fn is_look(&self, samples: u64) -> bool {
         let is_balanced = samples >= self.most || samples.count_ones() <= DIGITS;

@@ -7,25 +7,26 @@
 //! path finds.
 //!
 //! No sums are kept for a picture: a few blocks of pixels are traced in all replicates, then
-//! summarised, and 32 bytes a pixel stay. `run/pictures.rs` says how many paths a pixel gets.
+//! summarised, and 32 bytes a pixel stay. `pictures/camera_run.rs` says how many paths a pixel
+//! gets.
 
 use crate::context::Context;
+use crate::control::watch::Watch;
 use crate::estimator::bidirectional::{PictureLight, PixelSink, PixelTracer, PixelUnit, Sink};
 use crate::path::contribution::PathContribution;
+use crate::path::path_batch::WorkCounts;
 use crate::path::pixel_rays::PixelRays;
-use crate::path::sections::WorkCounts;
 use crate::path::start::{Measurement, PathMaps, Start};
 use crate::path::wave::{PathWave, WAVE};
 use crate::photon::caustics::CausticMap;
-use crate::run::pass::{KnownBlock, Pass, square_of};
-use crate::run::pixel_sums::{BlockSums, Developer, PictureSums, PixelSums};
-use crate::run::raster::{PixelBlock, Raster};
+use crate::pictures::pass::{KnownBlock, Pass, square_of};
+use crate::pictures::pixel_sums::{BlockSums, PictureSums, PixelSums, TileSink};
+use crate::pictures::raster::{PixelBlock, Raster};
 use crate::settings::Settings;
 use crate::spectrum::Spectrum;
 use crate::stats::interval::{Interval, t_quantile_for};
 use crate::stats::picture::{CameraEstimates, Pixel};
 use crate::stats::tally::Quantum;
-use crate::stats::watch::Watch;
 use quasilux_scene::Camera;
 use rayon::prelude::*;
 use std::ops::Range;
@@ -37,9 +38,9 @@ const TOGETHER: usize = 24;
 const OF_A_THREAD: usize = 2;
 const REGION: usize = 240;
 /// Indices between two words to the observer: half a second of a processor with two cores.
-pub(super) const INDICES: u64 = 2;
+pub(crate) const INDICES: u64 = 2;
 /// Where the picture of one camera is made.
-pub(super) struct Darkroom<'a, S> {
+pub(super) struct PictureIntegrator<'a, S> {
     context: &'a Context<'a, S>,
     rays: PixelRays,
     raster: Raster,
@@ -66,7 +67,7 @@ enum Light<'d, S> {
 }
 
 /// A picture, and how many contributions are not in it.
-pub(super) struct Exposure {
+pub(super) struct PassResult {
     pub(super) figures: CameraEstimates,
     pub(super) invalid: u64,
     pub(super) blocks: Vec<KnownBlock>,
@@ -83,7 +84,7 @@ pub(super) struct Step {
 }
 
 /// A block while it is traced.
-struct Tray {
+struct Tile {
     /// Among those of the picture.
     number: usize,
     /// Paths of each pixel in each replicate.
@@ -111,25 +112,25 @@ struct Course<'t> {
 }
 
 impl Course<'_> {
-    /// Notes work at so many paths of each pixel of some blocks.
-    fn step(&mut self, cost: &WorkCounts, trays: &mut [&mut Tray], paths: f64) {
-        for tray in trays {
-            self.done += tray.share * paths;
-            self.expect_less(tray, paths);
+    /// Notes work at this many paths of each pixel of some blocks.
+    fn step(&mut self, cost: &WorkCounts, tiles: &mut [&mut Tile], paths: f64) {
+        for tile in tiles {
+            self.done += tile.share * paths;
+            self.expect_less(tile, paths);
         }
         let (done, left) = (self.done, self.left);
         self.goes_on = (self.tick)(Step { paths: cost.paths, rays: cost.rays, done, left });
     }
 
-    /// Expects so many paths less of each pixel of a block, none if fewer were expected.
-    fn expect_less(&mut self, tray: &mut Tray, paths: f64) {
-        let less = paths.min(tray.expected);
-        tray.expected -= less;
-        self.left -= tray.share * less;
+    /// Expects this many paths less of each pixel of a block, none if fewer were expected.
+    fn expect_less(&mut self, tile: &mut Tile, paths: f64) {
+        let less = paths.min(tile.expected);
+        tile.expected -= less;
+        self.left -= tile.share * less;
     }
 }
 
-impl Exposure {
+impl PassResult {
     /// Whether blocks had to end before they were known well enough.
     pub(super) fn is_limited(&self) -> bool {
         self.blocks.iter().any(|block| !block.is_enough)
@@ -151,7 +152,7 @@ impl Exposure {
     }
 }
 
-impl<'a, S: Spectrum> Darkroom<'a, S> {
+impl<'a, S: Spectrum> PictureIntegrator<'a, S> {
     /// `None` when the observer stopped it.
     pub(super) fn new(
         context: &'a Context<'a, S>,
@@ -187,7 +188,7 @@ impl<'a, S: Spectrum> Darkroom<'a, S> {
         }
     }
 
-    /// Has so many photons in all look for light that no path finds; `None` where the observer
+    /// Has this many photons in all look for light that no path finds; `None` where the observer
     /// stopped them.
     pub(super) fn trace_caustics(
         &mut self,
@@ -212,12 +213,12 @@ impl<'a, S: Spectrum> Darkroom<'a, S> {
 
     /// One pass over the picture. `tick` is told how far it is, and says whether to go on; `None`
     /// where there was more to do.
-    pub(super) fn expose(
+    pub(super) fn render_pass(
         &self,
         pass: &Pass,
         work: &mut WorkCounts,
         mut tick: impl FnMut(Step) -> bool,
-    ) -> Option<Exposure> {
+    ) -> Option<PassResult> {
         let blocks = self.raster.blocks();
         let mut course =
             Course { tick: &mut tick, goes_on: true, done: 0.0, left: self.expected(pass) };
@@ -225,59 +226,59 @@ impl<'a, S: Spectrum> Darkroom<'a, S> {
         let mut sums = PictureSums::new(self.replicates);
         let mut known = Vec::with_capacity(blocks.len());
         for (region, first) in blocks.chunks(REGION).zip((0..).step_by(REGION)) {
-            let tray = |(it, block): (usize, &PixelBlock)| self.tray(first + it, *block, pass);
-            let mut trays: Vec<Tray> = region.par_iter().enumerate().map(tray).collect();
-            self.expose_region(pass, &mut trays, work, &mut course)?;
-            for tray in &trays {
-                for (place, pixel) in tray.places.iter().zip(self.pixels(tray)) {
+            let tile = |(it, block): (usize, &PixelBlock)| self.tile(first + it, *block, pass);
+            let mut tiles: Vec<Tile> = region.par_iter().enumerate().map(tile).collect();
+            self.render_region(pass, &mut tiles, work, &mut course)?;
+            for tile in &tiles {
+                for (place, pixel) in tile.places.iter().zip(self.pixels(tile)) {
                     pixels[*place] = pixel;
                 }
-                sums.add::<S>(&tray.found, tray.samples, self.quantum);
+                sums.add::<S>(&tile.found, tile.samples, self.quantum);
                 known.push(KnownBlock {
-                    pixels: tray.places.len(),
-                    samples: tray.samples,
-                    is_enough: tray.is_known,
+                    pixels: tile.places.len(),
+                    samples: tile.samples,
+                    is_enough: tile.is_known,
                     square: 0.0,
                 });
             }
         }
-        Some(self.exposure(pixels, sums, known))
+        Some(self.result(pixels, sums, known))
     }
 
     /// Traces blocks that the same light serves, each until it is known well enough; `None` where
     /// they were stopped.
-    fn expose_region(
+    fn render_region(
         &self,
         pass: &Pass,
-        trays: &mut [Tray],
+        tiles: &mut [Tile],
         work: &mut WorkCounts,
         course: &mut Course<'_>,
     ) -> Option<()> {
         let together = TOGETHER.max(OF_A_THREAD * rayon::current_num_threads());
-        let mut open: Vec<&mut Tray> = trays.iter_mut().collect();
+        let mut open: Vec<&mut Tile> = tiles.iter_mut().collect();
         let mut samples = 0;
         while !open.is_empty() {
             let next = (samples + INDICES).min(pass.most);
             let indices = pass.first + samples..pass.first + next;
             let light = self.light(indices.clone(), work);
-            for trays in open.chunks_mut(together) {
+            for tiles in open.chunks_mut(together) {
                 if !course.goes_on {
                     return None;
                 }
-                let cost = self.trace(trays, &light, indices.clone());
-                course.step(&cost, trays, (next - samples) as f64);
+                let cost = self.trace(tiles, &light, indices.clone());
+                course.step(&cost, tiles, (next - samples) as f64);
                 *work += cost;
             }
             samples = next;
             if pass.is_look(samples) {
-                open.par_iter_mut().for_each(|tray| {
-                    tray.is_known = pass.is_known(tray.number, &self.pixels(tray));
+                open.par_iter_mut().for_each(|tile| {
+                    tile.is_known = pass.is_known(tile.number, &self.pixels(tile));
                 });
             }
-            open.retain_mut(|tray| {
-                let goes_on = !tray.is_known && samples < pass.most;
+            open.retain_mut(|tile| {
+                let goes_on = !tile.is_known && samples < pass.most;
                 if !goes_on {
-                    course.expect_less(tray, f64::INFINITY);
+                    course.expect_less(tile, f64::INFINITY);
                 }
                 goes_on
             });
@@ -286,12 +287,12 @@ impl<'a, S: Spectrum> Darkroom<'a, S> {
     }
 
     /// What is known of a picture; finds the squares of the blocks.
-    fn exposure(
+    fn result(
         &self,
         pixels: Vec<Pixel>,
         sums: PictureSums,
         mut blocks: Vec<KnownBlock>,
-    ) -> Exposure {
+    ) -> PassResult {
         let n = pixels.len() as f64;
         let PictureSums { cd_m2, merged_cd_m2, invalid } = sums;
         let least = blocks.iter().map(|it| it.samples).min().unwrap_or(0);
@@ -314,10 +315,10 @@ impl<'a, S: Spectrum> Darkroom<'a, S> {
             let own = self.raster.places(block).map(|place| &figures.pixels[place]);
             known.square = square_of(own, mean_cd_m2);
         }
-        Exposure { figures, invalid, blocks }
+        PassResult { figures, invalid, blocks }
     }
 
-    fn tray(&self, number: usize, block: PixelBlock, pass: &Pass) -> Tray {
+    fn tile(&self, number: usize, block: PixelBlock, pass: &Pass) -> Tile {
         let places: Vec<usize> = self.raster.places(block).collect();
         let per_sure_m2 = match &self.tracer {
             Tracer::Paths(_) => 0.0,
@@ -332,7 +333,7 @@ impl<'a, S: Spectrum> Darkroom<'a, S> {
             sums: vec![PixelSums::default(); count * self.replicates as usize],
             least_disc_m2: vec![None; count],
         };
-        Tray {
+        Tile {
             number,
             samples: 0,
             expected: pass.expected(number),
@@ -360,16 +361,16 @@ impl<'a, S: Spectrum> Darkroom<'a, S> {
     /// Traces the paths of the pixels of some blocks with these indices, in all replicates.
     fn trace(
         &self,
-        trays: &mut [&mut Tray],
+        tiles: &mut [&mut Tile],
         light: &Light<'_, S>,
         indices: Range<u64>,
     ) -> WorkCounts {
-        let of_tray = |wave: &mut PathWave<S>, tray: &mut &mut Tray| {
+        let of_tray = |wave: &mut PathWave<S>, tile: &mut &mut Tile| {
             let mut work = WorkCounts::default();
-            let Tray { samples, places, per_sure_m2, found, .. } = &mut **tray;
+            let Tile { samples, places, per_sure_m2, found, .. } = &mut **tile;
             *samples += indices.end - indices.start;
             for replicate in 0..self.replicates {
-                let sink = &mut Developer {
+                let sink = &mut TileSink {
                     found,
                     replicate,
                     replicates: self.replicates,
@@ -393,7 +394,7 @@ impl<'a, S: Spectrum> Darkroom<'a, S> {
             }
             work
         };
-        let works = trays.par_iter_mut().map_init(PathWave::default, of_tray);
+        let works = tiles.par_iter_mut().map_init(PathWave::default, of_tray);
         let works: Vec<WorkCounts> = works.collect();
         works.into_iter().fold(WorkCounts::default(), |mut sum, own| {
             sum += own;
@@ -407,7 +408,7 @@ impl<'a, S: Spectrum> Darkroom<'a, S> {
         places: &[usize],
         caustics: Option<&CausticMap<S>>,
         indices: Range<u64>,
-        sink: &mut Developer<'_>,
+        sink: &mut TileSink<'_>,
         wave: &mut PathWave<S>,
     ) -> WorkCounts {
         let Self { context, rays, .. } = self;
@@ -440,10 +441,10 @@ impl<'a, S: Spectrum> Darkroom<'a, S> {
     }
 
     /// What is known of the pixels of a block.
-    fn pixels(&self, tray: &Tray) -> Vec<Pixel> {
-        let BlockSums { sums, least_disc_m2 } = &tray.found;
+    fn pixels(&self, tile: &Tile) -> Vec<Pixel> {
+        let BlockSums { sums, least_disc_m2 } = &tile.found;
         let own = sums.chunks_exact(self.replicates as usize).zip(least_disc_m2);
-        own.map(|(own, disc_m2)| self.pixel(own, tray.samples, disc_m2.unwrap_or(0.0))).collect()
+        own.map(|(own, disc_m2)| self.pixel(own, tile.samples, disc_m2.unwrap_or(0.0))).collect()
     }
 
     /// What the replicates say together.

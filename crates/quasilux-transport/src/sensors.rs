@@ -1,7 +1,7 @@
 //! The sensor points of all sensors in one list.
 
+use crate::control::observer::Snapshot;
 use crate::stats::estimates::SensorEstimates;
-use crate::stats::observer::Snapshot;
 use glam::DVec3;
 use quasilux_scene::sensor::Grid;
 use quasilux_scene::{Quantity, Scene, Sensor, SensorShape};
