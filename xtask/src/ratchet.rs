@@ -7,7 +7,7 @@
 
 use crate::modules::{arrows::Graph, rules, targets};
 use crate::packages;
-use crate::style::{files, functions, width, words};
+use crate::style::{files, functions, openers, width, words};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -24,12 +24,13 @@ pub struct Rule {
 }
 
 /// All rules that may have a list.
-pub const RULES: [Rule; 6] = [
+pub const RULES: [Rule; 7] = [
     Rule { name: "order", find: against_the_order },
     Rule { name: "long_functions", find: long_functions },
     Rule { name: "tuples", find: unlike_tuples },
     Rule { name: "packages", find: lacking_packages },
     Rule { name: "width", find: long_lines },
+    Rule { name: "openers", find: vague_openers },
     Rule { name: "old_words", find: old_words },
 ];
 
@@ -99,6 +100,15 @@ fn long_lines(root: &Path) -> Result<Violations, String> {
     let files = files::of_workspace(root, &[".rs", ".md"])?;
     Ok(grouped(files.into_iter().flat_map(|file| {
         let lines = width::long_lines(&file).into_iter();
+        lines.map(move |line| (file.path.clone(), format!("{}:{line}", file.path)))
+    })))
+}
+
+/// Documentation that opens without a noun, by file.
+fn vague_openers(root: &Path) -> Result<Violations, String> {
+    let files = files::of_workspace(root, &[".rs"])?;
+    Ok(grouped(files.into_iter().flat_map(|file| {
+        let lines = openers::vague_openers(&file).into_iter();
         lines.map(move |line| (file.path.clone(), format!("{}:{line}", file.path)))
     })))
 }

@@ -36,7 +36,7 @@ class Quasilux:
     def version(self) -> str:
         """As the program states it, and the commit of the tree where it was built in it."""
         said = subprocess.run([self.binary, "--version"], capture_output=True, text=True)
-        number = said.stdout.split()[-1]
+        number = said.stdout.splitlines()[0].split()[-1]
         if self.binary != BUILT_HERE:
             return number
         words = ["git", "-C", str(REPOSITORY), "rev-parse", "--short", "HEAD"]
