@@ -51,6 +51,7 @@ cargo xtask order CRATE    an order of a crate's rooms with few imports against 
 cargo xtask order CRATE write   put that order into xtask/order.toml
 cargo xtask ratchet        write the lists of known violations anew, which may only shrink
 cargo xtask ratchet new    the same after a rule was added, when they may grow
+cargo xtask messages       write the list of all texts that a user can see anew
 cargo xtask figures [PATH] sizes of all crates and of their module graphs, here or elsewhere
 cargo xtask octant         write the mirror octant in validation/ from its generator
 cargo xtask office         write examples/office/ from its generator
@@ -78,6 +79,7 @@ fn main() -> ExitCode {
         ["order", name, "write"] => arrows::write_order(&workspace_root(), name),
         ["ratchet"] => xtask::ratchet::write(&workspace_root(), false),
         ["ratchet", "new"] => xtask::ratchet::write(&workspace_root(), true),
+        ["messages"] => xtask::messages::write(&workspace_root()),
         ["figures"] => figures::print(&workspace_root()),
         ["figures", path] => figures::print(Path::new(path)),
         ["gauntlet", ref options @ ..] => gauntlet::run(&workspace_root(), options),

@@ -18,7 +18,7 @@ pub(crate) fn check(survey: &Survey<'_>, findings: &mut Findings<'_>) {
         let what = if seen.is_empty() {
             "sees nothing"
         } else {
-            "sees only what no light was found to reach"
+            "sees only surfaces that no light was found to reach"
         };
         let message = format!(
             "camera \"{}\" at {} is outside the geometry and {what}",
@@ -27,7 +27,7 @@ pub(crate) fn check(survey: &Survey<'_>, findings: &mut Findings<'_>) {
         );
         let cure =
             units::cure(scene, findings.places, position, Thing::Other).unwrap_or_else(|| {
-                "expected a place in the room, or one that looks into it".to_owned()
+                "move it into the room, or to a place that looks into it".to_owned()
             });
         let place = findings.places.cameras[number];
         findings.add(Check::CameraOutside, place, message, cure).at(position);

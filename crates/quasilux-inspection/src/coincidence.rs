@@ -41,11 +41,12 @@ pub(crate) fn check(survey: &Survey<'_>, findings: &mut Findings<'_>) {
         format!("\"{}\" (material \"{material}\")", names::object(&scene.mesh, triangle))
     };
     let message = format!(
-        "faces of {} and of {} are at the same place, as at {}",
+        "faces of {} and of {} coincide, for example at {}",
         of(met.triangle),
         of(twin),
         names::position(met.position)
     );
-    let cure = "expected one of them, or a gap between them; the one listed first counts";
+    let cure =
+        "delete one of them, or leave a gap between them; until then the one listed first counts";
     findings.add(Check::CoincidentFaces, findings.places.scene, message, cure).at(met.position);
 }

@@ -160,11 +160,11 @@ fn report(scene: &Scene, dark: &DarkPoints, asked: &[Asked<'_>], findings: &mut 
         let first = sensor.point(points[0]).position;
         let of_which = match dark.points.len() <= MAX_POINTS {
             true => sensor.len().to_string(),
-            false => format!("{} dark ones that were asked, of {}", asked.len(), sensor.len()),
+            false => format!("{} dark ones that were looked at, of {}", asked.len(), sensor.len()),
         };
         let count = names::count(points.len(), "point", "points");
         let message = format!(
-            "no light was found at {count} of {of_which} of sensor \"{}\", as at {}: {}",
+            "no light was found at {count} of {of_which} of sensor \"{}\", for example at {}: {}",
             sensor.name,
             names::position(first),
             cause.reason()
@@ -178,10 +178,11 @@ impl Cause<'_> {
     fn reason(self) -> String {
         match self {
             Self::Unfound => "light gets there, but rarely".to_owned(),
-            Self::SeesNothing => "no surface and no lamp is before it".to_owned(),
+            Self::SeesNothing => "no surface and no lamp is in front of it".to_owned(),
             Self::Blocked { object } => {
                 format!(
-                    "\"{object}\" stands before the nearest lamp, and no surface in sight is lit"
+                    "\"{object}\" stands in front of the nearest lamp, and no surface in sight is \
+                     lit"
                 )
             }
             Self::NoLampBefore => {
@@ -192,12 +193,12 @@ impl Cause<'_> {
 
     fn cure(self) -> &'static str {
         match self {
-            Self::Unfound => "expected more time, or more bounces where max_bounces is set",
-            Self::SeesNothing => "expected its normal toward the room",
+            Self::Unfound => "give it more time, or more bounces where max_bounces is set",
+            Self::SeesNothing => "turn its normal toward the room",
             Self::Blocked { .. } => {
-                "expected a lamp on this side of it, or light through or around it"
+                "put a lamp on this side of it, or let light through or around it"
             }
-            Self::NoLampBefore => "expected a lamp on this side of it",
+            Self::NoLampBefore => "put a lamp on this side of it",
         }
     }
 }

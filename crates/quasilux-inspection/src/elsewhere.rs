@@ -37,8 +37,8 @@ pub(crate) fn check(survey: &Survey<'_>, findings: &mut Findings<'_>) {
         );
         let is_roofed = |at: DVec3| survey.probe.first(at, DVec3::Z).is_some();
         let cure = units::cure_of_all(scene, findings.places, is_roofed).unwrap_or_else(|| {
-            "expected both in one room: the geometry may be in another unit (units in [scene]), or \
-             far from its origin in the program that it comes from"
+            "bring both into one room: set units in [scene] to the unit of the geometry, or move \
+             the geometry to its origin in the program that it comes from"
                 .to_owned()
         });
         let place = findings.places.scene;

@@ -34,11 +34,11 @@ pub(crate) fn check(survey: &Survey<'_>, findings: &mut Findings<'_>) {
         };
         let centroid = scene.mesh.corners(first).into_iter().sum::<DVec3>() / 3.0;
         let message = format!(
-            "{count} of the light \"{material}\" shine away from the room, as at {}",
+            "{count} of the light \"{material}\" shine away from the room, for example at {}",
             names::position(centroid)
         );
-        let cure = "light leaves the front of a face, where its corners are counter-clockwise: \
-                    expected them turned over";
+        let cure = "turn them over: light leaves the front of a face, where its corners are \
+                    counter-clockwise";
         let place = findings.places.lights[index];
         findings.add(Check::EmitterLooksAway, place, message, cure).at(centroid);
     }

@@ -40,15 +40,15 @@ fn lamps(scene: &Scene, findings: &mut Findings<'_>) {
                 names::length(size_m),
                 names::length(room_m)
             );
-            let cure = "expected a luminaire that fits: the unit of the geometry (units in \
-                        [scene]) or that of the luminaire file may be wrong";
+            let cure = "correct the unit of the geometry (units in [scene]) or that of the \
+                        luminaire file";
             findings.add(Check::LampTooBig, place, message, cure).at(light.position);
         }
         let (flux_lm, watts) = (light.photometry.flux_lm(), light.photometry.facts().input_watts);
         if watts > UNKNOWN_W && flux_lm > MAX_LM_W * watts {
             let message =
                 format!("\"{file}\" has {flux_lm:.0} lm of {watts} W, {:.0} lm/W", flux_lm / watts);
-            let cure = "expected 250 lm/W at the most: its lumens or its watts are wrong";
+            let cure = "correct its lumens or its watts: 250 lm/W is the most to expect";
             findings.add(Check::LampBright, place, message, cure).at(light.position);
         }
         let Some(lamps_lm) = light.photometry.facts().lamps_flux_lm() else { continue };
@@ -58,8 +58,8 @@ fn lamps(scene: &Scene, findings: &mut Findings<'_>) {
                 "the intensities of \"{file}\" make {:.0} lm, its lamps {lamps_lm:.0} lm",
                 light.photometry.flux_lm()
             );
-            let cure = "expected a file whose luminaire gives most of what its lamps do: its \
-                        multiplier or number of lamps may be wrong";
+            let cure = "correct its multiplier or its number of lamps: a luminaire gives most of \
+                        the light of its lamps";
             findings.add(Check::LampFlux, place, message, cure).at(light.position);
         }
     }
@@ -80,7 +80,7 @@ fn dimmings(scene: &Scene, findings: &mut Findings<'_>) {
             light.dimming,
             light.dimming * flux_lm
         );
-        let cure = "expected dimming = 1 for what the file says, 0.8 for a fifth less";
+        let cure = "set dimming = 1 for the flux of the file, 0.8 for a fifth less";
         let place = findings.places.lights[index];
         findings.add(Check::LampBright, place, message, cure).at(light.position);
     }
@@ -92,7 +92,7 @@ fn materials(scene: &Scene, findings: &mut Findings<'_>) {
     let used = || (0..scene.materials.len()).filter(|&material| is_used[material]);
     if used().next().is_some() && used().all(|material| !findings.places.is_described[material]) {
         let message = "no file gives the reflectance of any surface: all have the default, 0.5";
-        let cure = "expected [materials.NAME] with reflectance for each material, or for default";
+        let cure = "give each material, or default, a reflectance in [materials.NAME]";
         let place = findings.places.scene;
         findings.add(Check::DefaultReflectance, place, message.to_owned(), cure);
     }
@@ -104,7 +104,7 @@ fn materials(scene: &Scene, findings: &mut Findings<'_>) {
             entry.name
         );
         let place = findings.places.materials[material].unwrap_or(findings.places.scene);
-        let cure = "expected a share as of paint, 0.9 at the most";
+        let cure = "set a reflectance of paint, at most 0.9";
         findings.add(Check::HighReflectance, place, message, cure);
     }
 }

@@ -26,11 +26,11 @@ pub(crate) fn check(scene: &Scene, findings: &mut Findings<'_>) {
         let middle = grid.origin + 0.5 * (grid.u + grid.v);
         if grid.cells() > MANY {
             let message = format!("the {size} has {columns} x {rows} = {} points", grid.cells());
-            let cure = "expected a wider spacing, or edges in m";
+            let cure = "widen its spacing, or give its edges in m";
             findings.add(Check::GridSize, place, message, cure).at(middle);
         } else if grid.cells() == 1 {
             let message = format!("the {size} has a single point");
-            let cure = "expected a spacing below its edges, or kind = \"points\"";
+            let cure = "set a spacing below its edges, or kind = \"points\"";
             findings.add(Check::GridSize, place, message, cure).at(middle);
         }
     }
@@ -52,11 +52,11 @@ pub(crate) fn check_normals(survey: &Survey<'_>, findings: &mut Findings<'_>) {
             continue;
         }
         let message = format!(
-            "the grid \"{}\" looks down, and what is above it is far away: it has the light that \
-             comes from below",
+            "the grid \"{}\" looks down, though nothing is close above it: it measures the light \
+             from below",
             sensor.name
         );
-        let cure = "expected normal = [0, 0, 1], or u and v in the other order";
+        let cure = "set normal = [0, 0, 1], or swap u and v";
         let place = findings.places.sensors[number];
         findings.add(Check::GridLooksDown, place, message, cure).at(middle);
     }

@@ -79,8 +79,7 @@ pub(crate) fn check(survey: &Survey<'_>, findings: &mut Findings<'_>) {
     let mesh = &survey.probe.scene.mesh;
     let holes = holes(mesh, &surroundings.leaving);
     let share = format!("{:.2} % of directions from lit places lead out", 100.0 * leaving);
-    let cure = "expected a closed room: the light that leaves is lost. Add the missing surface, or \
-                a dark one";
+    let cure = "add the missing surface, or a dark one: the light that leaves is lost";
     let place = findings.places.scene;
     for hole in holes.iter().take(MAX_LISTED) {
         let message = format!(

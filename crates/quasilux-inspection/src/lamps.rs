@@ -60,8 +60,8 @@ pub(crate) fn check(survey: &Survey<'_>, findings: &mut Findings<'_>) {
         let way = shortest_move(survey, lamp, position);
         if survey.is_in_the_open(position) {
             let message = format!(
-                "{what} hangs outside the geometry: none of its light was found to reach a sensor \
-                 or camera"
+                "{what} hangs outside the geometry, and none of its light was found to reach a \
+                 sensor or camera"
             );
             let cure = cure_outside(scene, findings.places, position, way.as_ref());
             findings.add(Check::LampOutside, place, message, cure).at(position);
@@ -71,13 +71,13 @@ pub(crate) fn check(survey: &Survey<'_>, findings: &mut Findings<'_>) {
                 "{what} is inside the closed object \"{object}\", and none of its light was found \
                  to reach a sensor or camera"
             );
-            let cure = "expected a place in the room, or an opening or glass in the object";
+            let cure = "move it into the room, or give the object an opening or glass";
             findings.add(Check::LampInBody, place, message, cure).at(position);
         } else if let Some(way) = way {
             let object = names::object(&scene.mesh, way.triangle);
             let message = format!(
-                "{what} hangs behind \"{object}\": none of its light was found to reach a sensor \
-                 or camera"
+                "{what} hangs behind \"{object}\", and none of its light was found to reach a \
+                 sensor or camera"
             );
             let cure = cure_by_move(&way, scene);
             findings.add(Check::LampBehindSurface, place, message, cure).at(position);
@@ -103,11 +103,11 @@ fn in_surface(survey: &Survey<'_>, index: usize, at: DVec3, findings: &mut Findi
     let object = names::object(&scene.mesh, surface.triangle);
     let what = names::light(findings.places, &scene.lights, index);
     let message = format!(
-        "{what} at {} is in \"{object}\", and some {:.0} % of its light starts behind it",
+        "{what} at {} is in \"{object}\", and about {:.0} % of its light starts behind it",
         names::position(at),
         100.0 * lost
     );
-    let cure = "expected it in front of the surface, or turned away from it";
+    let cure = "move it in front of the surface, or turn it away from it";
     findings.add(Check::LampInSurface, findings.places.lights[index], message, cure).at(at);
 }
 
@@ -183,7 +183,7 @@ fn through(survey: &Survey<'_>, from: DVec3, direction: DVec3) -> Option<Move> {
 fn cure_outside(scene: &Scene, places: &Places, position: DVec3, way: Option<&Move>) -> String {
     units::cure(scene, places, position, Thing::Lamp).unwrap_or_else(|| match way {
         Some(way) => cure_by_move(way, scene),
-        None => "expected a position inside the room, in m".to_owned(),
+        None => "give it a position inside the room, in m".to_owned(),
     })
 }
 
@@ -192,7 +192,8 @@ fn cure_by_move(way: &Move, scene: &Scene) -> String {
     let length = names::length((way.length_m * 1e3).ceil() / 1e3);
     let direction = names::position(way.direction);
     format!(
-        "moved through \"{object}\" by more than {length} along {direction} it would light the room"
+        "move it through \"{object}\" by more than {length} along {direction}, where it lights \
+         the room"
     )
 }
 

@@ -49,19 +49,19 @@ pub(crate) fn check(survey: &Survey<'_>, findings: &mut Findings<'_>) {
         let reasons = [
             (Closed::BySurface, "a solid surface is right behind it"),
             (Closed::InTheOpen, "there is no room behind it"),
-            (Closed::Inside, "it is not at the outside"),
+            (Closed::Inside, "it does not face the outside"),
         ];
         let most = reasons.into_iter().max_by_key(|(why, _)| count(*why));
         let (why, reason) = most.expect("three reasons");
         let message = format!(
-            "through {:.0} % of opening {} no light comes in: {reason}",
+            "no light comes in through {:.0} % of opening {}: {reason}",
             100.0 * share,
             number + 1
         );
-        let cure = "expected origin, u and v in m, in the hole of a wall or the plane of its glass";
+        let cure = "place origin, u and v, in m, in the hole of a wall or the plane of its glass";
         let at = closed.iter().find(|(_, it)| *it == why).expect("there is one").0;
         let place = findings.places.openings[number];
-        let message = format!("{message}, as at {}", names::position(at));
+        let message = format!("{message}, for example at {}", names::position(at));
         findings.add(Check::OpeningClosed, place, message, cure).at(at);
     }
 }

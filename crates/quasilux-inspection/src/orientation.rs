@@ -34,7 +34,7 @@ pub(crate) fn check(scene: &Scene, findings: &mut Findings<'_>) {
     });
     let Some(evidence) = evidence else { return };
     let message = format!("{now} is taken as up in the geometry files, but {evidence}");
-    let cure = format!("if {other} points up there, say up = \"{other}\" in [scene]");
+    let cure = format!("set up = \"{other}\" in [scene] if {other} points up there");
     findings.add(Check::UpAxis, findings.places.scene, message, cure);
 }
 
@@ -95,7 +95,7 @@ impl<'a> NamedFlat<'a> {
     fn evidence(&self) -> Option<String> {
         let areas = self.areas_m2;
         let stands = areas.y > 2.0 * areas.z && areas.y > 2.0 * areas.x;
-        stands.then(|| format!("what is called \"{}\" stands upright", self.name))
+        stands.then(|| format!("the surface called \"{}\" stands upright", self.name))
     }
 }
 

@@ -110,16 +110,14 @@ fn report(survey: &Survey<'_>, number: usize, odd: &Odd, findings: &mut Findings
             false => "outside the geometry, where no light was found",
         };
         let message = format!(
-            "{} {place_of}, as at {}",
+            "{} {place_of}, for example at {}",
             share(sensor, odd.outside.len(), odd.tried),
             names::position(first)
         );
         let cure = units::cure(scene, findings.places, first, Thing::Other).unwrap_or_else(|| {
             match odd.outside.len() < odd.tried {
-                true => "expected a grid that ends at the walls".to_owned(),
-                false => {
-                    "expected a place in the room, in m, its normal toward the room".to_owned()
-                }
+                true => "keep its points within the walls".to_owned(),
+                false => "move it into the room, in m, its normal toward the room".to_owned(),
             }
         });
         findings.add(Check::SensorOutside, place, message, cure).at(first);
@@ -133,7 +131,7 @@ fn share(sensor: &Sensor, count: usize, tried: usize) -> String {
         (true, _) => format!("sensor \"{name}\" lies"),
         (false, true) => format!("{count} of {tried} points of sensor \"{name}\" lie"),
         (false, false) => {
-            format!("{count} of {tried} points that were tried of sensor \"{name}\" lie")
+            format!("{count} of {tried} tested points of sensor \"{name}\" lie")
         }
     }
 }
@@ -156,12 +154,12 @@ fn report_covered(survey: &Survey<'_>, number: usize, findings: &mut Findings<'_
     let sensor = &scene.sensors[number];
     let Some(Covered { tried, count, first, triangle }) = covered(survey, sensor) else { return };
     let message = format!(
-        "{} right before \"{}\", facing it, as at {}",
+        "{} right in front of \"{}\", facing it, for example at {}",
         share(sensor, count, tried),
         names::object(&scene.mesh, triangle),
         names::position(first)
     );
-    let cure = "expected it on the other side, or its normal turned";
+    let cure = "move it to the other side, or turn its normal";
     let place = findings.places.sensors[number];
     findings.add(Check::SensorCovered, place, message, cure).at(first);
 }

@@ -30,13 +30,13 @@ pub(crate) fn check(scene: &Scene, findings: &mut Findings<'_>) {
         let name = |index| names::light(findings.places, &scene.lights, index);
         let position = position_of(&scene.lights[second]).unwrap_or_default();
         let message = format!(
-            "{} stands where {} does, at {}, with the same aim",
+            "{} and {} coincide at {}, with the same aim",
             name(second),
             name(first),
             names::position(position)
         );
         let place = findings.places.lights[second];
-        let cure = "expected one of them, or another position";
+        let cure = "delete one of them, or move it";
         findings.add(Check::LampTwice, place, message, cure).at(position);
     }
 }

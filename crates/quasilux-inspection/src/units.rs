@@ -129,8 +129,9 @@ pub(crate) fn cure(
     let fits = |to: &LengthUnit| *to != from && explained.by(to.metres() / from.metres());
     let to = LengthUnit::ALL.into_iter().find(fits)?;
     Some(format!(
-        "its position would be inside in {}: if it is meant so, say position_units = \"{}\" in \
-         [scene] for all positions, or give this one in {}",
+        "it would be inside if its position were in {}: set position_units = \"{}\" in [scene] if \
+         all \
+         positions are, or give this one in {}",
         in_words(to),
         to.name(),
         in_words(from)
@@ -170,8 +171,9 @@ pub(crate) fn cure_of_all(
         // Whatever shrinks positions enough puts them around the origin.
         .or_else(|| roofed.max_by(|a, b| a.factor.total_cmp(&b.factor)))?;
     Some(format!(
-        "all of them would be inside with {} in place of {}: if it is meant so, say {key} = \"{}\" \
-         in [scene]",
+        "all of them would be inside with {} in place of {}: set {key} = \"{}\" in [scene] if \
+         that is \
+         meant",
         in_words(*to),
         in_words(*from),
         to.name()
@@ -223,9 +225,9 @@ pub(crate) fn check(scene: &Scene, findings: &mut Findings<'_>) {
     if let Some(unit) = smaller_unit_of_geometry(scene, &geometry, &positions) {
         let message = format!("{size}, and all positions of the project are in a corner of it");
         let cure = format!(
-            "if its files are in {}, say units = \"{}\" in [scene]",
-            in_words(unit),
-            unit.name()
+            "set units = \"{}\" in [scene] if its files are in {}",
+            unit.name(),
+            in_words(unit)
         );
         findings.add(Check::Units, place, message, cure);
     } else if edges.z > MAX_HEIGHT_M {
@@ -237,7 +239,7 @@ pub(crate) fn check(scene: &Scene, findings: &mut Findings<'_>) {
         findings.add(Check::Units, place, message, cure);
     } else if edges.length() < MIN_SIZE_M {
         let message = format!("{size}, less than any room");
-        let cure = "expected metres: look at units in [scene], and at the unit of its files";
+        let cure = "set units in [scene] to the unit of its files";
         findings.add(Check::Units, place, message, cure);
     }
 }
@@ -303,7 +305,7 @@ fn cure_of_units(units: &[LengthUnit], both: bool) -> String {
     let names: Vec<String> = units.iter().map(|unit| format!("\"{}\"", unit.name())).collect();
     let name = names.join(" or ");
     let also = if both { format!(", and position_units = {name}") } else { String::new() };
-    format!("if its files are in {}, say units = {name}{also} in [scene]", words.join(" or in "))
+    format!("set units = {name}{also} in [scene] if its files are in {}", words.join(" or in "))
 }
 
 /// The unit in which a height is nearest to that of most rooms, by ratio.

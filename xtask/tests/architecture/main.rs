@@ -143,6 +143,16 @@ fn no_violation_is_new_and_none_is_listed_in_vain() {
     }
 }
 
+/// Whoever changes a text reads it in its list, beside others.
+#[test]
+fn the_texts_that_users_see_are_listed() {
+    let root = workspace();
+    let found = xtask::messages::of_workspace(&root).unwrap();
+    let listed = fs::read_to_string(root.join(xtask::messages::LIST)).unwrap_or_default();
+    let different = xtask::messages::differences(&listed, &found);
+    assert!(listed == found, "run `cargo xtask messages`\n{}", different.join("\n"));
+}
+
 #[test]
 fn pages_and_comments_point_to_what_is_there() {
     let root = workspace();

@@ -169,7 +169,7 @@ pub(crate) const GRIDS: &[Spoil] = &[
     },
     |room, dice| {
         room.grid.origin.x += dice.within(0.3, 0.7) * room.size.x;
-        Some(fault("beyond a wall", BEYOND, SENSORS).saying("ends at the walls"))
+        Some(fault("beyond a wall", BEYOND, SENSORS).saying("within the walls"))
     },
     |room, _| {
         room.spacing_m = 40.0;
@@ -201,7 +201,7 @@ pub(crate) const SIZES: &[Spoil] = &[
     |room, dice| {
         let unit = dice.pick(&UNITS);
         room.position_unit = unit.1;
-        let cure = format!("say position_units = \"{}\"", unit.0);
+        let cure = format!("set position_units = \"{}\"", unit.0);
         Some(fault("positions of another unit", EITHER, SCENE).saying(&cure))
     },
     |room, dice| {
@@ -225,7 +225,7 @@ const HEIGHTS: &[Spoil] = &[
     |room, dice| {
         let unit = dice.pick(&UNITS);
         room.geometry_unit = unit.1;
-        let cure = format!("say units = \"{}\"", unit.0);
+        let cure = format!("set units = \"{}\"", unit.0);
         Some(fault("geometry of another unit", EITHER, SCENE).saying(&cure))
     },
     |room, dice| {

@@ -36,8 +36,11 @@ fn a_box_keeps_light_out() {
     let case =
         Case::new().with(sides.into_iter().skip(1)).add(&probe("[4.5, 3.4, 1]", "[0, 0, 1]"));
     let told = reason(&case);
-    assert!(told.contains("\"hood\" stands before the nearest lamp"), "{told}");
-    assert!(told.contains("at 1 point of 1 of sensor \"probe\", as at [4.5, 3.4, 1]"), "{told}");
+    assert!(told.contains("\"hood\" stands in front of the nearest lamp"), "{told}");
+    assert!(
+        told.contains("at 1 point of 1 of sensor \"probe\", for example at [4.5, 3.4, 1]"),
+        "{told}"
+    );
 }
 
 #[test]
@@ -46,7 +49,7 @@ fn nothing_is_before_a_sensor_that_looks_at_the_sky() {
     case.faces.retain(|face| ["floor", "west"].contains(&face.object));
     let case = case.add(&probe("[3, 2, 2.9]", "[0, 0, 1]"));
     let told = reason(&case);
-    assert!(told.contains("no surface and no lamp is before it"), "{told}");
+    assert!(told.contains("no surface and no lamp is in front of it"), "{told}");
 }
 
 #[test]
@@ -73,7 +76,7 @@ fn lamps_that_shine_elsewhere_are_told() {
 #[test]
 fn light_that_was_missed_is_no_fault_of_the_scene() {
     let told = reason(&Case::new().add(&probe("[3, 2, 1]", "[0, 0, 1]")));
-    assert!(told.contains("light gets there, but rarely; expected more time"), "{told}");
+    assert!(told.contains("light gets there, but rarely; give it more time"), "{told}");
 }
 
 #[test]

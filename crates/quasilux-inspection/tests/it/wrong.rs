@@ -81,7 +81,7 @@ fn lamps_in_wrong_places() {
         outside("in centimetres", "[450, 200, 270]", "position_units = \"cm\""),
         outside("in inches", "[177, 79, 106]", "position_units = \"in\""),
         outside("in feet", "[14.7, 6.6, 8.9]", "position_units = \"ft\""),
-        lamp("one of another unit", inches, Check::LampOutside, "\"mm\" in [scene] for all"),
+        lamp("one of another unit", inches, Check::LampOutside, "\"mm\" in [scene] if all"),
         lamp(
             "above the ceiling, in a hall",
             storey,
@@ -92,7 +92,7 @@ fn lamps_in_wrong_places() {
             "above a ceiling slab",
             lamp_at("[4.5, 2, 3.25]").with(slab).with(tower),
             Check::LampBehindSurface,
-            "would light the room",
+            "where it lights the room",
         ),
         lamp(
             "in a cabinet",
@@ -150,7 +150,7 @@ fn lamps_that_cannot_be() {
         of_file("ten times its lamps", bright, Check::LampFlux, "multiplier"),
         of_file("a hundredth of its lamps", dim, Check::LampFlux, "multiplier"),
         of_file("an opening in millimetres", long, Check::LampTooBig, "unit"),
-        lamp("listed twice", twice, Check::LampTwice, "another position"),
+        lamp("listed twice", twice, Check::LampTwice, "move it"),
         of_file(
             "dimmed to a hundred times",
             lamp_at("[4.5, 2, 2.7]")
@@ -171,7 +171,7 @@ fn lamps_that_cannot_be() {
             check: Check::LampTwice,
             section: "[[lights]]",
             number: 2,
-            cure: "another position",
+            cure: "move it",
         },
     ]);
 }
@@ -251,7 +251,7 @@ fn holes_in_rooms() {
         material: "wall",
         corners: vec![v(0.0, 4.0, 0.0), v(6.0, 4.0, 0.0), v(6.0, 4.0, 2.95), v(0.0, 4.0, 2.95)],
     }]);
-    let cure = "Add the missing surface";
+    let cure = "add the missing surface";
     told(vec![
         scene("a long wall missing", missing("south"), Check::Hole, cure),
         scene("a short wall missing", missing("east"), Check::Hole, cure),
@@ -288,7 +288,7 @@ fn emitters_that_look_away() {
         number: 1,
         cure,
     };
-    let cure = "turned over";
+    let cure = "turn them over";
     told(vec![
         wrong("a panel 5 cm below the ceiling", with(vec![panel(v(2.0, 1.0, 2.95), true)]), cure),
         wrong("a panel in the ceiling", with(vec![panel(v(2.0, 1.0, 3.0), true)]), cure),
@@ -317,17 +317,22 @@ fn sensors_in_wrong_places() {
             "beyond a wall",
             moved("[2.5, 0.5, 0.8]"),
             Check::SensorOutside,
-            "ends at the walls",
+            "keep its points within the walls",
         ),
         sensor(
             "beyond a wall, under the sky",
             moved("[2.5, 0.5, 0.8]")
                 .add("[sky]\nmodel = \"cie\"\ntype = 1\nhorizontal_illuminance_lx = 10000\n"),
             Check::SensorOutside,
-            "ends at the walls",
+            "keep its points within the walls",
         ),
-        sensor("outside", moved("[7.5, 0.5, 0.8]"), Check::SensorOutside, "in the room"),
-        sensor("above the ceiling", moved("[0.5, 0.5, 3.2]"), Check::SensorOutside, "in the room"),
+        sensor("outside", moved("[7.5, 0.5, 0.8]"), Check::SensorOutside, "into the room"),
+        sensor(
+            "above the ceiling",
+            moved("[0.5, 0.5, 3.2]"),
+            Check::SensorOutside,
+            "into the room",
+        ),
         sensor(
             "in millimetres",
             Case::new()
@@ -350,13 +355,13 @@ fn sensors_in_wrong_places() {
             "looking into the floor",
             moved("[0.5, 0.5, 0.001]").add("normal = [0, 0, -1]\n"),
             Check::SensorCovered,
-            "normal turned",
+            "turn its normal",
         ),
         sensor(
             "very many points",
             Case::new().say("spacing = 0.5", "spacing = 0.01"),
             Check::GridSize,
-            "wider spacing",
+            "widen its spacing",
         ),
         sensor(
             "one point",
@@ -386,13 +391,13 @@ fn cameras_in_wrong_places() {
         cure,
     };
     told(vec![
-        camera("behind a wall", "position = [3, -2, 1.5]\ntarget = [3, 2, 1]\n", "in the room"),
+        camera("behind a wall", "position = [3, -2, 1.5]\ntarget = [3, 2, 1]\n", "into the room"),
         camera(
             "in millimetres",
             "position = [500, 500, 1500]\ntarget = [3000, 2000, 1000]\n",
             "mm",
         ),
-        camera("looking away", "position = [3, -2, 1.5]\ntarget = [3, -5, 1]\n", "in the room"),
+        camera("looking away", "position = [3, -2, 1.5]\ntarget = [3, -5, 1]\n", "into the room"),
     ]);
 }
 
