@@ -16,7 +16,7 @@ use std::sync::Arc;
 pub(crate) const MAX_TRIANGLE_TESTS: u64 = 200_000_000;
 
 /// What a sensor or camera needs.
-const EXPECTED: &str = "expected a place that light can reach";
+const EXPECTED: &str = "move it where light can reach it";
 
 /// A sensor point on a surface is judged by the place this share of the scene's size in front.
 const HAIR: f64 = 1e-6;

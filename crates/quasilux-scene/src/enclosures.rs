@@ -32,8 +32,8 @@ pub(crate) fn light_must_end(scene: &Scene, project: &Project) -> Result<(), Loa
     let triangle = solid.triangles[0];
     let (object, material) = (mesh.object_of[triangle as usize], scene.material(triangle));
     let message = format!(
-        "nothing absorbs light in the closed object \"{}\", so that it would grow for ever; \
-         expected a reflectance below 1 on some surface",
+        "nothing absorbs light in the closed object \"{}\", so it would grow for ever; give some \
+         surface a reflectance below 1",
         mesh.objects[object as usize]
     );
     let entry = project.materials.iter().find(|entry| entry.name.value == material.name);
@@ -71,8 +71,8 @@ pub(crate) fn glass_must_be_closed(scene: &Scene, project: &Project, warnings: &
     let (closed, inside_out) = (count(&is_closed), count(&is_inside_out));
     warn(
         glass.len() - closed,
-        "are not part of a closed body: light that enters there stays inside; kind = \"pane\" is \
-         for single sheets",
+        "are not part of a closed body, and light that enters there stays inside; set kind = \
+         \"pane\" for single sheets",
     );
     warn(inside_out, "face the inside of their body: it is taken for a hollow in glass");
 }

@@ -83,7 +83,7 @@ pub(crate) fn read(
             obj::read(&bytes, files, &mut builder, warnings)?;
         } else {
             if project.up.is_none() {
-                let message = "glTF has y up, and [scene] does not say up = \"y\": taken as z up";
+                let message = "glTF has y up, but is read with z up; set up = \"y\" in [scene]";
                 warnings.push(Warning::new(&file.value, None, message));
             }
             gltf::read(&bytes, files, &mut builder, warnings)?;

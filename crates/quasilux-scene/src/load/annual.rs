@@ -20,7 +20,7 @@ pub(super) fn terms(
                 (Some(_), Some(new_year)) => OccupiedDays::Weekdays { new_year },
                 (Some(place), None) => {
                     let message = "the weather file does not say with which day of the week its \
-                                   year begins; expected first_day, such as \"monday\"";
+                                   year begins; set first_day, such as \"monday\"";
                     return Err(project.error(*place, message));
                 }
             };

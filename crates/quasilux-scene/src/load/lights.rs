@@ -48,7 +48,7 @@ pub(super) fn place(
                 let light = area_light(project, geometry, material, *emission)?;
                 if let Some(first) = emitting.insert(light.material, material.place) {
                     let message = format!(
-                        "the material \"{}\" already emits by line {}; expected one light for it",
+                        "the material \"{}\" already emits by line {}; give it one light",
                         material.value, first.line
                     );
                     return Err(project.error(material.place, message));
@@ -63,7 +63,7 @@ pub(super) fn place(
         let first_light = project.lights.iter().map(LightEntry::place);
         let place =
             first_luminaire.chain(first_light).min().unwrap_or(Position { line: 1, column: 1 });
-        let message = "no light gives any flux; expected at least one light with a positive flux";
+        let message = "no light gives any flux; give at least one light a positive flux";
         return Err(project.error(place, message));
     }
     Ok(lights)
@@ -151,7 +151,7 @@ fn shape(
     let shape = photometry.facts().shape();
     if shape.is_point() {
         let message = format!(
-            "\"as\" is \"area\", but the luminous opening of \"{}\" is a point; it stays one",
+            "\"as\" is \"area\", but the luminous opening of \"{}\" is a point: it stays a point",
             entry.photometry.value
         );
         warnings.push(Warning::new(&project.file, Some(place), message));

@@ -108,7 +108,7 @@ fn undefined(material: &FileMaterial, count: u64, bsdf: &Bsdf) -> Warning {
 fn opaque(material: &FileMaterial) -> Warning {
     let name = &material.name;
     let message = format!(
-        "the material \"{name}\" lets light through by its file, and is opaque here; expected \
+        "the material \"{name}\" lets light through by its file, and is opaque here; add \
          [materials.\"{name}\"] with kind = \"pane\" and its transmittance, or another kind"
     );
     Warning::new(&material.file, None, message)

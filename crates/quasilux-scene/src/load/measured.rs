@@ -47,8 +47,8 @@ impl<'a> MeasuredFiles<'a> {
         };
         if up.is_none() && !table.is_isotropic() {
             let message = format!(
-                "\"{name}\" scatters differently when it is turned in its plane; expected up = [x, \
-                 y, z], where the table's upward direction points"
+                "\"{name}\" scatters differently when it is turned in its plane; set up = [x, y, \
+                 z] to where the table's upward direction points"
             );
             return Err(self.project.error(file.place, message));
         }
@@ -73,8 +73,8 @@ impl<'a> MeasuredFiles<'a> {
             Some(triangle) => {
                 let [x, y, z] = mesh.corners(triangle)[0].to_array();
                 let message = format!(
-                    "\"up\" is square to the facet at ({x}, {y}, {z}); expected a direction that \
-                     lies in all facets of the material, or leans that way"
+                    "\"up\" is square to the facet at ({x}, {y}, {z}); give a direction that lies \
+                     in all facets of the material, or leans that way"
                 );
                 Err(self.project.error(up.place, message))
             }

@@ -48,9 +48,9 @@ pub(super) fn resolve(
         OutsideLight::Weather(entry) => of_weather(project, entry, files, warnings)?,
     };
     if sky.is_held() {
-        let message = "the model of Perez has no sky for so bright a one with the sun so low (b > \
-             0); it has the nearest brightness that the model has one for, and the illuminance \
-             of its own";
+        let message = "the sky is approximate: the model of Perez covers no sky this bright with \
+                       the sun this low (b > 0). It takes the nearest brightness that the model \
+                       covers, and keeps its illuminance";
         warnings.push(Warning::new(&project.file, None, message.to_owned()));
     }
     odd::tell(project, entry, &sky, &facts, warnings);
@@ -160,7 +160,7 @@ fn expect_same_site(
     };
     let message = format!(
         "[site] is at {} by latitude_deg, longitude_deg and time_zone_h, and \"{file}\" is of {}; \
-         expected the same, or [site] with north_deg alone: the weather file says where it is",
+         give the same place, or [site] with north_deg alone: the weather file says where it is",
         of(own),
         of(other)
     );

@@ -105,15 +105,15 @@ fn position(
     let geometry = list.transpose()?.unwrap_or_default();
     if let (Some(list), true) = (section.get("geometry"), geometry.iter().any(|it| is_in(open, it)))
     {
-        let message = "a file of [scene] is listed again; expected what is there beside it";
+        let message = "a file of [scene] is listed again; list only what is there beside it";
         return Err(list.error(message));
     }
     let materials = section.table("materials")?;
     let materials = materials.map(|materials| materials::entries(&materials)).transpose()?;
     let materials = materials.unwrap_or_default();
     if geometry.is_empty() && materials.is_empty() {
-        let message = "closed blinds are the same as open ones; expected geometry that is there \
-                       while they are closed, or [blinds.materials.NAME], what a material is then";
+        let message = "closed blinds are the same as open ones; add geometry that is there while \
+                       they are closed, or [blinds.materials.NAME], what a material is then";
         return Err(section.error(message));
     }
     Ok(PositionEntry { name, geometry, materials })
@@ -134,8 +134,8 @@ fn expect_apart(
                 let shared = file.or(material.map(|it| &it.name));
                 if let Some(shared) = shared {
                     return Err(section.error(format!(
-                        "\"{}\" is of the blinds \"{}\", too; expected groups that move by \
-                         themselves, each with files and materials of its own",
+                        "\"{}\" is of the blinds \"{}\", too; give each group files and materials \
+                         of its own",
                         shared.value, other.name
                     )));
                 }

@@ -62,7 +62,7 @@ fn camera(section: &Section<'_>, names: &mut Names, pixels: &mut u64) -> Result<
 }
 
 fn samples(section: &Section<'_>) -> Result<Option<u64>, LoadError> {
-    let expected = format!("a number of paths a pixel and replicate, 1 to {MAX_SAMPLES}");
+    let expected = format!("a number of paths per pixel and replicate, 1 to {MAX_SAMPLES}");
     let samples = |value: Value<'_>| value.integer(&expected, 1..=MAX_SAMPLES);
     section.get("samples").map(samples).transpose()
 }

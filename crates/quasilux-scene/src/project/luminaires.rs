@@ -64,7 +64,7 @@ fn luminaire(section: &Section<'_>) -> Result<LuminaireEntry, LoadError> {
 fn amount(section: &Section<'_>) -> Result<LightOutput, LoadError> {
     match (section.get("dimming"), section.get("flux_lm")) {
         (Some(_), Some(flux)) => {
-            Err(flux.error("\"dimming\" and \"flux_lm\" exclude each other; expected one of them"))
+            Err(flux.error("\"dimming\" and \"flux_lm\" exclude each other; give one of them"))
         }
         (None, Some(flux)) => {
             let expected = "the flux of the luminaire in lm, at least 0";

@@ -260,7 +260,7 @@ fn geometry_files(list: &Value<'_>, expected: &str) -> Result<Vec<Spanned<String
     for file in files {
         let name = file.string("the name of an OBJ, glTF or GLB file")?;
         if geometry.iter().any(|earlier| earlier.value == name) {
-            return Err(file.error(format!("\"{name}\" is listed twice; expected each file once")));
+            return Err(file.error(format!("\"{name}\" is listed twice; list each file once")));
         }
         geometry.push(file.spanned(name.to_owned()));
     }

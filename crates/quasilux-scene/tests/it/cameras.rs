@@ -72,7 +72,7 @@ fn broken_cameras_are_refused_at_their_line() {
         ("[64, 48]", "[64.5, 48]", 23, "1 to 16384 each"),
         ("[64, 48]", "[16385, 1]", 23, "1 to 16384 each"),
         ("[64, 48]", "[16384, 16384]", 23, "at most 16777216 in all"),
-        ("[64, 48]", "[64, 48]\nsamples = 0", 24, "paths a pixel and replicate, 1 to"),
+        ("[64, 48]", "[64, 48]\nsamples = 0", 24, "paths per pixel and replicate, 1 to"),
         ("[64, 48]", "[64, 48]\nrel_tol = 0", 24, "a share above 0, at most 0.5"),
         ("vertical_fov_deg", "fov_deg", 22, "unknown key \"fov_deg\" in [[cameras]]"),
         ("[[cameras]]", "[cameras]", 17, "expected [[cameras]], in double brackets"),

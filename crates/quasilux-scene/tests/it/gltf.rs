@@ -118,7 +118,7 @@ fn an_axis_that_is_not_named_is_warned_of() {
     let loaded = load_geometry("room.glb", &files()).unwrap();
     assert_eq!(
         warnings_of(&loaded),
-        ["room.glb: glTF has y up, and [scene] does not say up = \"y\": taken as z up"]
+        ["room.glb: glTF has y up, but is read with z up; set up = \"y\" in [scene]"]
     );
 }
 

@@ -45,7 +45,7 @@ fn a_point_in_a_cupboard_is_refused_at_its_line() {
     assert_eq!(
         error.to_string(),
         "room.toml:14:3: point 2 of sensor \"probe\" lies inside the closed object \"cupboard\", \
-         which holds no light; expected a place that light can reach"
+         which holds no light; move it where light can reach it"
     );
 }
 
@@ -64,9 +64,8 @@ fn a_closed_hall_where_nothing_absorbs_is_refused() {
     let error = hall("1").unwrap_err();
     assert_eq!(
         error.to_string(),
-        "room.toml:16:12: nothing absorbs light in the closed object \"room\", so that it would \
-         grow \
-         for ever; expected a reflectance below 1 on some surface"
+        "room.toml:16:12: nothing absorbs light in the closed object \"room\", so it would grow \
+         for ever; give some surface a reflectance below 1"
     );
     assert!(hall("[0.5, 1, 0.5]").is_err() && hall("0.999").is_ok());
 }

@@ -32,8 +32,8 @@ fn odd_clock(site: &Site) -> Option<String> {
     let (zone_h, longitude_deg) = (site.time_zone_h(), site.longitude_deg());
     site.has_clock_of_another_place().then(|| {
         format!(
-            "time_zone_h = {zone_h} at {longitude_deg} degrees east; expected about {:.0}, hours \
-             ahead of Greenwich (the sun stands by the clock)",
+            "time_zone_h = {zone_h} at {longitude_deg} degrees east; set it to about {:.0}, in \
+             hours ahead of Greenwich (the sun stands by the clock)",
             longitude_deg / 15.0
         )
     })
@@ -43,8 +43,8 @@ fn odd_sky(sky: &Sky, sun: SkyPoint) -> Option<String> {
     let lx = sky.horizontal_illuminance_lx();
     (sun.altitude_deg < SkyPoint::NIGHT_DEG && lx > TWILIGHT_LX).then(|| {
         format!(
-            "the sky gives {lx:.0} lx with the sun {:.0} degrees below the horizon; expected a \
-             time of the day, by the clock of the site",
+            "the sky gives {lx:.0} lx with the sun {:.0} degrees below the horizon; set a time of \
+             the day, by the clock of the site",
             -sun.altitude_deg
         )
     })
@@ -53,16 +53,16 @@ fn odd_sky(sky: &Sky, sun: SkyPoint) -> Option<String> {
 fn odd_disk(facts: &SkyFacts, sun: SkyPoint) -> Option<String> {
     if sun.altitude_deg <= 0.0 {
         return Some(format!(
-            "direct = true has no effect: the sun is {:.0} degrees below the horizon; expected a \
-             time of the day, by the clock of the site",
+            "direct = true has no effect: the sun is {:.0} degrees below the horizon; set a time \
+             of the day, by the clock of the site",
             -sun.altitude_deg
         ));
     }
     let SkyModel::Cie(cie) = &facts.model else { return None };
     OVERCAST.contains(&cie.number()).then(|| {
         format!(
-            "direct = true with the overcast sky of CIE type {}, which no sun shines through; \
-             expected a type from 6 to 15, or no direct sun",
+            "direct = true with the overcast sky of CIE type {}, which no sun shines through; set \
+             a type from 6 to 15, or direct = false",
             cie.number()
         )
     })
