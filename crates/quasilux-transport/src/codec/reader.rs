@@ -7,7 +7,7 @@ use thiserror::Error;
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum StateError {
     /// They end before the state does, or go on behind it.
-    #[error("the state has another length than it says")]
+    #[error("the state is not as long as it says")]
     Length,
     /// What they say cannot be, or belongs to another scene or other settings.
     #[error("{0} does not fit this scene and these settings")]

@@ -16,14 +16,15 @@ pub enum CheckError {
         expected: &'static str,
     },
     /// The points of a sequence that must know how many there are have to be those of the run.
-    #[error("{sequence} must know the number of points ahead: give max_samples the same number")]
+    #[error("{sequence} needs the number of points in advance: set max_samples to the same number")]
     OtherNumberOfPoints {
         /// Name of the sequence.
         sequence: &'static str,
     },
     /// Photon counting needs the flux through a grid's own plane.
     #[error(
-        "sensor \"{sensor}\": the estimator \"photon\" needs a grid whose normal is square to it"
+        "sensor \"{sensor}\": the estimator \"photon\" needs a grid whose normal is perpendicular \
+         to it"
     )]
     TiltedNormal {
         /// Name of the sensor.
@@ -39,8 +40,8 @@ pub enum CheckError {
     },
     /// These photons are counted from their first flight on, or there are none.
     #[error(
-        "first_shot = \"on\" is for the photons of illumination maps: the estimator \
-         \"{estimator}\" has none"
+        "first_shot = \"on\" needs illumination maps, which the estimator \"{estimator}\" does \
+         not have; use \"bidirectional-map\""
     )]
     FirstShotWithoutMap {
         /// Name of the estimator.
@@ -48,8 +49,8 @@ pub enum CheckError {
     },
     /// No photon of these is split or ended.
     #[error(
-        "importance = \"on\" is for photons that sensors count, or that fill illumination maps: \
-         there are none with the estimator \"{estimator}\""
+        "importance = \"on\" needs photons that sensors count or that fill illumination maps, \
+         which the estimator \"{estimator}\" does not have; use \"photon\" or \"bidirectional-map\""
     )]
     NothingToGuide {
         /// Name of the estimator.
@@ -57,7 +58,8 @@ pub enum CheckError {
     },
     /// Nothing can be left out of a map that is not there.
     #[error(
-        "map_dimensions is for illumination maps: there is none with the estimator \"{estimator}\""
+        "map_dimensions needs illumination maps, which the estimator \"{estimator}\" does not \
+         have; use \"bidirectional-map\""
     )]
     NoMapToLeaveOutOf {
         /// Name of the estimator.
@@ -65,7 +67,8 @@ pub enum CheckError {
     },
     /// Nothing is known of single contributions.
     #[error(
-        "interval = \"certified\" is for the estimator \"auto\": \"{estimator}\" bounds nothing"
+        "interval = \"certified\" needs bounds, which the estimator \"{estimator}\" does not \
+         have; use \"auto\""
     )]
     NothingCertified {
         /// Name of the estimator.
@@ -73,8 +76,8 @@ pub enum CheckError {
     },
     /// There is nothing to compare.
     #[error(
-        "interval = \"certified\" needs randomised replicates, two at least: their number bounds \
-         how near a lower limit comes"
+        "interval = \"certified\" needs at least 2 randomised replicates: their number bounds how \
+         near a lower limit comes"
     )]
     NoReplicates,
     /// There is no light at all.

@@ -98,7 +98,7 @@ pub enum MergeError {
         index: u64,
     },
     /// No part has these indices.
-    #[error("the indices from {} to before {} are in no part", .missing.start, .missing.end)]
+    #[error("no part has the indices from {} to before {}", .missing.start, .missing.end)]
     Gap {
         /// The first indices that are missing.
         missing: Range<u64>,
