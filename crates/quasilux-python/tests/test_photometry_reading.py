@@ -212,7 +212,7 @@ def test_tilt_files_are_read_beside_the_luminaire(tmp_path):
         photometry.read(path)
     (tmp_path / "lamp.tlt").unlink()
     (tmp_path / "lamp.tlt").mkdir()
-    assert "no regular file" in str(photometry.read(path).warnings)
+    assert "not a regular file" in str(photometry.read(path).warnings)
 
 
 def test_tilt_files_may_be_given():

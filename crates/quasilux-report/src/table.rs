@@ -225,7 +225,7 @@ fn run_facts(report: &Report) -> String {
         plural(replicates, "replicate"),
         from.map(|least| format!("{} to ", count(least))).unwrap_or_default(),
         match report.sensors.is_empty() && !report.cameras.is_empty() {
-            true => format!("{} a pixel", plural(run.samples, "path")),
+            true => format!("{} per pixel", plural(run.samples, "path")),
             false => plural(run.samples, "sample"),
         },
         plural(run.rays, "ray"),
@@ -282,7 +282,7 @@ impl Verdict {
         let wanted = tolerance(settings, unseen::is_bounded(report));
         let at = match settings.tolerance_on {
             ToleranceOn::Points => "at every point",
-            ToleranceOn::Summary => "by every average",
+            ToleranceOn::Summary => "for every sensor average",
         };
         if !settings.has_tolerance() {
             Self { emphasis: Emphasis::Faint, text: "no tolerance was asked for".into() }
@@ -301,7 +301,7 @@ impl Verdict {
         let undone = report.cameras.iter().filter(|camera| !camera.is_done).count();
         if undone > 0 {
             let all = plural(report.cameras.len() as u64, "picture");
-            let text = format!("{undone} of {all} stopped before the end");
+            let text = format!("{undone} of {all} stopped early");
             return Self { emphasis: Emphasis::Caution, text };
         }
         let widest = report.cameras.iter().filter_map(|camera| camera.rel_tol).reduce(f64::max);
@@ -309,7 +309,7 @@ impl Verdict {
             Some(share) => {
                 format!("pictures known to {} %", brief(100.0 * share, 4))
             }
-            None => "every picture has all its paths".into(),
+            None => "all passes complete".into(),
         };
         Self { emphasis: Emphasis::Good, text }
     }
@@ -369,7 +369,7 @@ mod tests {
                     9.81 s on 2 threads; tolerance of 1 % reached at every point";
         assert!(table(&report, Style::Plain).contains(last));
         assert!(table(&report, Style::Plain).ends_with("warning: a \"quoted\" warning\n"));
-        assert!(table(&report, Style::Plain).contains("half-widths shrink like N^-0.72\n"));
+        assert!(table(&report, Style::Plain).contains("error ~ N^-0.72\n"));
         report.run.earlier_seconds = 7.5;
         report.run.maintenance_factor = 0.8;
         let told = "9.81 s (7.5 s before it was resumed) on 2 threads, maintenance factor 0.8; ";
@@ -377,7 +377,7 @@ mod tests {
         report.sensors[0].points[7].samples = 1024;
         assert!(table(&report, Style::Plain).contains("of 1 024 to 65 536 samples"));
         report.run.settings.tolerance_on = ToleranceOn::Summary;
-        assert!(table(&report, Style::Plain).contains("1 % reached by every average"));
+        assert!(table(&report, Style::Plain).contains("1 % reached for every sensor average"));
         report.run.sensors_reached = false;
         assert!(table(&report, Style::Plain).contains("1 % not reached"));
         report.run.settings.abs_tol_lx = 2.5;
@@ -394,8 +394,8 @@ mod tests {
         assert!(lines[0].starts_with("camera   pixels    samples   mean"), "{text}");
         let wanted = "view     40 x 30   16        8.000 ± 0 cd/m²   8 cd/m²   ± 0.5 cd/m² (6.2 %)";
         assert_eq!(lines[1], wanted, "{text}");
-        assert!(text.contains("every picture has all its paths"), "{text}");
-        assert!(text.contains("16 replicates of 16 paths a pixel"), "{text}");
+        assert!(text.contains("all passes complete"), "{text}");
+        assert!(text.contains("16 replicates of 16 paths per pixel"), "{text}");
         for word in ["sensor", "point", "sample,"] {
             assert!(!text.contains(word), "{word} in {text}");
         }
@@ -404,7 +404,7 @@ mod tests {
         assert!(text.contains("pictures known to 7.25 %"), "{text}");
         report.cameras[0].is_done = false;
         let text = table(&report, Style::Plain);
-        assert!(text.contains("1 of 1 picture stopped before the end"), "{text}");
+        assert!(text.contains("1 of 1 picture stopped early"), "{text}");
         report.sensors = example::office().sensors;
         let text = table(&report, Style::Plain);
         assert!(text.contains("\n\ncamera") && text.starts_with("sensor"), "{text}");

@@ -69,7 +69,7 @@ pub(crate) enum Command {
     Shard(ShardArguments),
     /// Put the parts of a run together
     Merge(MergeArguments),
-    /// Go on from a checkpoint
+    /// Continue from a checkpoint
     Resume(ResumeArguments),
     /// Print the script with which a shell completes commands, options and names
     Completions(CompletionsArguments),
@@ -143,7 +143,7 @@ pub(crate) struct CheckpointArguments {
     /// Keep the run in this file while it goes, for `resume`
     #[arg(long, value_name = "FILE")]
     pub(crate) checkpoint: Option<PathBuf>,
-    /// How often, at most
+    /// How often to keep it, at most
     #[arg(long, value_name = "TIME", value_parser = duration, default_value = "5s")]
     pub(crate) checkpoint_every: Duration,
 }
@@ -157,9 +157,9 @@ pub(crate) struct SimulationArguments {
     /// Half-width in lx that is enough whatever the value, like 0.5 or 0.5lx
     #[arg(long, value_name = "LUX", value_parser = illuminance)]
     pub(crate) abs_tol: Option<f64>,
-    /// Light that no sample met over the value, like 5% or 0.05, that is little enough, of
-    /// estimators that bound it; rel-tol where that is larger; off does not wait for it
-    /// [default: the project's, or else 5%]
+    /// Wanted bound on light that no sample met over the value, like 5% or 0.05, for estimators
+    /// that have one; never below rel-tol; off does not wait for it [default: the project's, or
+    /// else 5%]
     #[arg(long, value_name = "SHARE", value_parser = unseen_tolerance)]
     pub(crate) unseen_tol: Option<UnseenTolerance>,
     /// What has to reach the tolerance: every sensor point, or the average of every sensor
@@ -218,7 +218,8 @@ pub(crate) struct ExperimentArguments {
     /// Largest number of photons or points compared [default: the experiment's own]
     #[arg(long, value_name = "N", value_parser = whole::<u64>(64..=1 << 30))]
     pub(crate) max_n: Option<u64>,
-    /// Runs of each setup, where the experiment has such, 2 or more [default: the experiment's own]
+    /// Runs of each setup, 2 or more, where the experiment repeats them [default: the experiment's
+    /// own]
     #[arg(long, value_name = "N", value_parser = whole::<u32>(2..=1_000_000))]
     pub(crate) seeds: Option<u32>,
     /// Time for one setup at the most, like 60s or 5m, where errors are shown against time

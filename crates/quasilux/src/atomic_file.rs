@@ -27,7 +27,7 @@ struct Beside {
 /// Whether a file can be made there, by trying beside it.
 pub(crate) fn try_beside(place: &Path) -> io::Result<()> {
     if is_device(place) {
-        return Err(io::Error::new(io::ErrorKind::InvalidInput, "is no regular file"));
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, "is not a regular file"));
     }
     let beside = beside(&behind_links(place), "unfinished");
     create_new(&beside)?;

@@ -12,8 +12,8 @@ pub(crate) fn expect(version: &str, build: &str) -> Result<(), String> {
     }
     if build != BUILD {
         return Err(format!(
-            "was made by another build of version {VERSION}, {build}, and this is {BUILD}: what is \
-             computed may differ"
+            "was made by another build of version {VERSION}, {build}, and this is {BUILD}: \
+             results may differ"
         ));
     }
     Ok(())

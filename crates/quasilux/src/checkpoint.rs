@@ -192,7 +192,7 @@ pub(crate) fn read(path: &Path) -> Result<Latest, CliError> {
     let previous = beside(path, "previous");
     match read_one(&previous) {
         Ok(checkpoint) => {
-            let warning = format!("{error}; going on from {}", previous.display());
+            let warning = format!("{error}; continuing from {}", previous.display());
             Ok(Latest { checkpoint, warning: Some(warning) })
         }
         Err(_) => Err(error),

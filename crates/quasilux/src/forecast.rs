@@ -61,10 +61,9 @@ fn expect_bytes(loaded: &Loaded, settings: &Settings, available: u64) -> Result<
         return Ok(());
     }
     let Greediest { what, place } = greediest(loaded, settings);
-    let [needed, there_is] = [bytes, available].map(memory);
+    let [needed, available] = [bytes, available].map(memory);
     let message = format!(
-        "the run takes up to {bytes} bytes of memory ({needed}), most of it for {what}; expected \
-         at most {available} bytes ({there_is}), which there are"
+        "not enough memory: up to {needed} needed, mostly for {what}, and {available} available"
     );
     Err(CliError::in_file(&loaded.places.file, place, message))
 }
@@ -83,7 +82,7 @@ fn greediest(loaded: &Loaded, settings: &Settings) -> Greediest {
     if others.iter().all(|bytes| *bytes < maps_bytes) {
         let asked = simulation.map_elements.as_ref().map(|given| given.place);
         let asked = asked.or(simulation.map_element_m.as_ref().map(|given| given.place));
-        let what = "illumination maps: map_elements bounds them".to_owned();
+        let what = "illumination maps (lower map_elements)".to_owned();
         return Greediest { what, place: asked };
     }
     let sums_bytes = need.sums_bytes.max(need.cells_bytes);

@@ -53,12 +53,12 @@ pub(crate) fn expect_regular(path: &Path) -> io::Result<()> {
 
 fn expect_kind(metadata: &fs::Metadata) -> io::Result<()> {
     if metadata.is_dir() {
-        return Err(io::Error::new(io::ErrorKind::IsADirectory, "a folder, no file"));
+        return Err(io::Error::new(io::ErrorKind::IsADirectory, "a folder, not a file"));
     }
     if metadata.is_file() {
         return Ok(());
     }
-    let message = "no regular file, but a device, a pipe or a socket";
+    let message = "not a regular file, but a device, a pipe or a socket";
     Err(io::Error::new(io::ErrorKind::InvalidInput, message))
 }
 

@@ -71,5 +71,5 @@ fn lacks_points(name: &str) -> Option<String> {
     let sequence = find(name, &Sequence::all_for(0), Sequence::name)?;
     sequence
         .points()
-        .map(|_| format!("{name} must know the number of points ahead: give --samples"))
+        .map(|_| format!("{name} needs the number of points in advance: give --samples"))
 }

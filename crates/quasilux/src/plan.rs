@@ -146,7 +146,10 @@ impl Plan {
         if decided.as_ref() == Some(&self.decisions.sha256) {
             return Ok(());
         }
-        Err(CliError::new(format!("{name}: surveys and pilots decide otherwise than in the plan")))
+        Err(CliError::new(format!(
+            "{name}: this build decides otherwise than the plan recorded; make the plan again with \
+             this version"
+        )))
     }
 
     /// What is wrong with it by itself.
@@ -156,7 +159,7 @@ impl Plan {
         }
         build::expect(&self.version, &self.build)?;
         if self.digest() != self.sha256 {
-            return Err("was changed after it was made: its sha256 is another".to_owned());
+            return Err("was changed after it was made: its sha256 differs".to_owned());
         }
         Ok(())
     }
@@ -220,7 +223,7 @@ impl Part {
         let PartHeading { plan, index_range: [start, end] } = heading;
         plan.check()?;
         if start >= end || end > plan.samples {
-            return Err(format!("has no such indices: {start}..{end} of {}", plan.samples));
+            return Err(format!("says indices {start}..{end}, of {} in all", plan.samples));
         }
         Ok(Self { name: name.to_owned(), plan, range: start..end, sums: body.to_vec() })
     }

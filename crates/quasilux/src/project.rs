@@ -140,8 +140,8 @@ fn expect_light(project: &Project) -> Result<(), CliError> {
     let refuse = |message: &str| Err(CliError::in_file(&project.name, None, message));
     if sky.as_ref().is_some_and(SkyFacts::lacks_time) {
         return refuse(
-            "the sky is that of a weather file, and no time says of which interval; expected \
-             [sun] with time, such as 2026-03-20T12:30:00 (`quasilux annual` computes the year)",
+            "no time says which interval of the weather file the sky is of; set time in [sun], \
+             such as 2026-03-20T12:30:00 (`quasilux annual` computes the year)",
         );
     }
     let is_dark_outside = scene.environment.as_ref().is_some_and(Environment::is_dark);
@@ -272,8 +272,8 @@ fn expect_an_end(
     let has_limit =
         arguments.samples.is_some() || arguments.time.is_some() || arguments.rays.is_some();
     if settings.effective_replicates() < 2 && !has_limit {
-        let message = "one replicate gives no interval, so no tolerance can end the run: give \
-                       --samples, --rays or --time, or ask for more replicates and a randomization";
+        let message = "no tolerance can end the run, since one replicate gives no interval: give \
+                       --samples, --rays or --time, or set more replicates and a randomization";
         return Err(CliError::in_file(&project.name, None, message));
     }
     Ok(())

@@ -30,7 +30,7 @@ pub(crate) fn claim(folder: &Path) -> Result<Claim, CliError> {
     let Ok(opened) = File::open(folder) else { return Ok(Claim { _folder: None }) };
     if let Err(TryLockError::WouldBlock) = opened.try_lock() {
         let message =
-            "another run writes its results there; expected a folder of its own, by --out";
+            "another run writes its results there; give this one a folder of its own by --out";
         return Err(CliError::in_file(folder.display(), None, message));
     }
     Ok(Claim { _folder: Some(opened) })
@@ -128,7 +128,7 @@ pub(crate) fn prepare_file(path: &Path, read: &[&Path]) -> Result<(), CliError> 
         _ => false,
     };
     if read.iter().any(same) {
-        let message = "is read by this command, expected another file";
+        let message = "is read by this command; name another file";
         return Err(CliError::in_file(path.display(), None, message));
     }
     match path.parent() {

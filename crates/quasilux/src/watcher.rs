@@ -371,21 +371,21 @@ fn message(progress: &Progress, done: Option<f64>, elapsed_s: f64) -> String {
 /// The passes of a picture, how well it is known, and the time left to its end.
 fn picture_message(name: &str, picture: &PictureProgress, done: f64, elapsed_s: f64) -> String {
     let PictureProgress { samples, complete_samples, relative_half_width, rel_tol, .. } = *picture;
-    let known = relative_half_width.map_or_else(|| "±?".to_owned(), percent);
-    let wanted = rel_tol.map_or_else(String::new, |share| format!(" of {}", percent(share)));
+    let known = relative_half_width.map_or_else(|| "?".to_owned(), percent);
+    let wanted = rel_tol.map_or_else(String::new, |share| format!(", goal {}", percent(share)));
     let left = match done {
         done if done > 0.0 => format!("{:.0} s left", elapsed_s * (1.0 - done) / done),
         _ => "? s left".to_owned(),
     };
     format!(
-        "picture {name}: {} paths a pixel after {}, {known}{wanted}, {left}",
+        "picture {name}: pass with {} paths per pixel (previous {}), error {known}{wanted}, {left}",
         count(samples),
         count(complete_samples),
     )
 }
 
 fn percent(share: f64) -> String {
-    format!("±{:.2} %", 100.0 * share)
+    format!("{:.2} %", 100.0 * share)
 }
 
 /// A line for what a sensor shows: its average, and the least and the most where they differ.
@@ -446,10 +446,13 @@ mod tests {
             rel_tol: Some(0.02),
         };
         let text = picture_message("door", &picture, 0.25, 3.0);
-        assert_eq!(text, "picture door: 24 paths a pixel after 4, ±4.56 % of ±2.00 %, 9 s left");
+        let wanted = "picture door: pass with 24 paths per pixel (previous 4), error 4.56 %, goal \
+                      2.00 %, 9 s left";
+        assert_eq!(text, wanted);
         let first = PictureProgress { samples: 1, ..PictureProgress::default() };
         let text = picture_message("door", &first, 0.0, 3.0);
-        assert_eq!(text, "picture door: 1 paths a pixel after 0, ±?, ? s left");
+        let wanted = "picture door: pass with 1 paths per pixel (previous 0), error ?, ? s left";
+        assert_eq!(text, wanted);
     }
 
     #[test]

@@ -131,7 +131,7 @@ impl YearReader {
         let YearHeading { points, of, .. } = &heading;
         if points.start >= points.end || points.end > *of {
             let Range { start, end } = points;
-            return Err(refuse(format!("has no such points: {start}..{end} of {of}")));
+            return Err(refuse(format!("says points {start}..{end}, of {of} in all")));
         }
         let whole = bytes.len() as u64;
         Ok(Self { name, path: path.to_owned(), file, heading, whole })

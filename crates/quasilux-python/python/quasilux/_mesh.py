@@ -178,7 +178,7 @@ def _materials(
         if not all(isinstance(name, int) and not isinstance(name, bool) for name in names):
             raise input_error("material_of mixes kinds; expected indices alone, or names alone")
         array = array.astype(np.int64)
-    indices = _indices(array, "material_of", "indices into materials or names of such")
+    indices = _indices(array, "material_of", "indices into materials, or names of them")
     if triangles and indices.max() >= max(len(materials), 1):
         at = int(indices.argmax())
         raise input_error(

@@ -397,7 +397,7 @@ def _geometry(
 
     if mesh is not None:
         if vertices is not None or triangles is not None:
-            raise TypeError("mesh and vertices exclude each other; expected one of them")
+            raise TypeError("mesh and vertices exclude each other; give one of them")
         return _mesh.from_mesh(mesh, material_of, list(materials))
     if vertices is None or triangles is None:
         raise TypeError("vertices and triangles go together; expected both, or mesh")

@@ -117,7 +117,7 @@ def _value(value: object, origin: str) -> str:
         return "[" + ", ".join(_value(part, f"{origin}[{i}]") for i, part in enumerate(value)) + "]"
     raise TypeError(
         f"{origin} is {type(value).__name__}; expected a number, text, True or False, or a list "
-        "or an array of such"
+        "or an array of them"
     )
 
 

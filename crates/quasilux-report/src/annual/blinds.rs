@@ -84,8 +84,8 @@ impl BlindsOfYear {
         }
         if rooms.len() > MAX_ROOMS {
             return Err(format!(
-                "the groups of blinds make {} rooms together over the year; expected at most \
-                 {MAX_ROOMS}: fewer groups, or schedules that move them together",
+                "the groups of blinds make {} rooms together over the year, of {MAX_ROOMS} at \
+                 most; use fewer groups, or schedules that move them together",
                 rooms.len()
             ));
         }

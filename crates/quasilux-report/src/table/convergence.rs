@@ -12,12 +12,10 @@ const LIKE_RANDOM: f64 = -0.6;
 pub(super) fn convergence(report: &Report) -> Option<String> {
     let run = &report.run;
     let slope = run.convergence.slope?;
-    let mut text = format!("half-widths shrink like N^{slope:.2}");
+    let mut text = format!("error ~ N^{slope:.2}");
     if slope > LIKE_RANDOM && run.settings.sequence.name() != "random" {
-        text += ", as with random points";
-        if report.explanation.is_none() {
-            text += " (--explain says why)";
-        }
+        let hint = if report.explanation.is_none() { "; see --explain" } else { "" };
+        text += &format!(" (no better than random points{hint})");
     }
     let left = run.convergence.samples.zip(run.convergence.rays);
     if let (false, true, Some((samples, rays))) =
@@ -25,7 +23,7 @@ pub(super) fn convergence(report: &Report) -> Option<String> {
         && samples > run.samples
     {
         let all = [plural(samples, "sample"), plural(rays, "ray")];
-        text += &format!("; the tolerance would take {}", all.join(", "));
+        text += &format!("; reaching the tolerance would take {}", all.join(", "));
         if let Some(seconds) = run.expected_seconds() {
             text += &format!(", about {} s in all", brief(seconds, 2));
         }
@@ -44,14 +42,14 @@ mod tests {
     #[test]
     fn the_slope_is_told_and_what_is_left_where_a_limit_came_first() {
         let mut report = example::office();
-        assert_eq!(convergence(&report).unwrap(), "half-widths shrink like N^-0.72");
+        assert_eq!(convergence(&report).unwrap(), "error ~ N^-0.72");
         report.run.sensors_reached = false;
         report.run.convergence.slope = Some(-0.5);
         report.run.convergence.samples = Some(1 << 18);
         report.run.convergence.rays = Some(750_617_284);
         report.run.seconds = 10.0;
-        let wanted = "half-widths shrink like N^-0.50, as with random points (--explain says why); \
-            the tolerance would take 262 144 samples, 750 617 284 rays, about 40 s in all and 96 \
+        let wanted = "error ~ N^-0.50 (no better than random points; see --explain); reaching the \
+            tolerance would take 262 144 samples, 750 617 284 rays, about 40 s in all and 96 \
             MiB";
         assert_eq!(convergence(&report).unwrap(), wanted);
         report.run.earlier_rays = report.run.rays / 2;

@@ -109,7 +109,10 @@ fn sentences(explanation: &Explanation) -> Vec<String> {
             _ => ["Most of it varies smoothly", ", which even points integrate fast"],
         };
         let feeds = block.uses.first().map_or_else(String::new, |used| used.purpose.to_string());
-        format!("{start}: {:.0} % of the variance hang on \"{feeds}\"{end}.", 100.0 * total(block))
+        format!(
+            "{start}: {:.0} % of the variance depends on \"{feeds}\"{end}.",
+            100.0 * total(block)
+        )
     }));
     sentences
 }
@@ -179,7 +182,7 @@ mod tests {
             "2 and on      place on an area light, at surface 1",
             " 70.0 ± 1.0 %",
             "3.0 ± 0.3 times as large, so that they would need 9 times the samples",
-            "jumps: 70 % of the variance hang on \"direction from the sensor\".",
+            "jumps: 70 % of the variance depends on \"direction from the sensor\".",
         ] {
             assert!(text.contains(words), "no {words} in\n{text}");
         }

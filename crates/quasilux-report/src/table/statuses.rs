@@ -22,7 +22,7 @@ fn in_words(status: PointStatus) -> Option<&'static str> {
         PointStatus::Unseen => "bound on unseen light too large",
         PointStatus::Average => "average not known well enough",
         PointStatus::Dark => "no light found",
-        PointStatus::RareLight => "too little found of light that is rare and bright",
+        PointStatus::RareLight => "too few paths met rare, bright light",
         PointStatus::FewSamples => "too few samples",
         PointStatus::Done => return None,
     })

@@ -39,7 +39,7 @@ impl Lack {
         }
         let share = share.map(|share| format!("at most {} %", brief(100.0 * share, 2)));
         let lux = lux.map(|lux| format!("at most {} lx where none was found", brief(lux, 2)));
-        let unknown = is_unknown.then(|| "nobody knows how much".to_owned());
+        let unknown = is_unknown.then(|| "unknown".to_owned());
         [share, lux, unknown].into_iter().flatten().collect::<Vec<String>>().join(" or ")
     }
 }
@@ -68,7 +68,7 @@ pub(super) fn line(report: &Report) -> Option<String> {
     let points = points.map(|point| Lack::new(point.unseen.bound_lx, point.illuminance_lx.value));
     let confidence = brief(100.0 * quasilux_transport::unseen::UNSEEN_CONFIDENCE, 4);
     Some(format!(
-        "and {} more light that no sample met ({confidence} %) in averages; at points {}",
+        "light that no sample met ({confidence} %): in averages {}; at points {}",
         Lack::all_in_words(averages),
         Lack::all_in_words(points)
     ))
@@ -99,8 +99,9 @@ mod tests {
         assert!(lines[0].contains("average        unseen     minimum"), "{text}");
         assert!(lines[1].contains("200.0 ± 0 lx   ≤ 0.4 lx   0 ± 0 lx"), "{text}");
         assert!(text.contains(
-            "\nand at most 0.2 % more light that no sample met (95 %) in averages; at points at \
-             most 4 % or at most 0.02 lx where none was found\n"
+            "\nlight that no sample met (95 %): in averages at most 0.2 %; at points at most 4 % \
+             or \
+             at most 0.02 lx where none was found\n"
         ));
         assert!(text.contains("tolerance of 1 % and 5 % unseen reached at every point"), "{text}");
         assert!(text.contains("\ncannot see: lamp, glass body, point; sun, mirror, point\n"));
@@ -115,11 +116,11 @@ mod tests {
     }
 
     #[test]
-    fn what_nobody_knows_is_told() {
+    fn unknown_bounds_are_told() {
         let mut report = example::with_unseen();
         report.sensors[0].summary.unseen = Some(crate::SummaryUnseen::default());
         let text = line(&report).unwrap();
-        assert!(text.starts_with("and nobody knows how much more light"), "{text}");
+        assert!(text.contains(": in averages unknown; "), "{text}");
         assert_eq!(column(&report).unwrap().next().unwrap(), "unknown");
     }
 }

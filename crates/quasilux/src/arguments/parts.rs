@@ -96,7 +96,7 @@ pub(crate) struct MergeArguments {
 #[derive(Debug, Args)]
 #[command(mut_arg("out", |out| out.help("Folder for the results [default: the run's]")))]
 pub(crate) struct ResumeArguments {
-    /// The checkpoint of a run or a year, which goes on keeping itself there
+    /// The checkpoint of a run or a year, which is kept up to date
     pub(crate) checkpoint: PathBuf,
     /// The project file [default: where the run was started]
     #[arg(long, value_name = "FILE")]
@@ -104,7 +104,7 @@ pub(crate) struct ResumeArguments {
     /// Stop after this time from now on, like 60s, 5m or 1.5h, at the last completed checkpoint
     #[arg(long, value_name = "TIME", value_parser = duration)]
     pub(crate) time: Option<Duration>,
-    /// How often the run is kept, at most
+    /// How often to keep the run, at most
     #[arg(long, value_name = "TIME", value_parser = duration, default_value = "5s")]
     pub(crate) checkpoint_every: Duration,
     #[command(flatten)]

@@ -75,9 +75,9 @@ fn conflict(error: &Error) -> String {
     let others: Vec<String> =
         words(error, ContextKind::PriorArg).iter().map(|whole| option_of(whole)).collect();
     match others.join(", ") {
-        others if others == name => format!("{name} is given twice; expected it once"),
+        others if others == name => format!("{name} is given twice; give it once"),
         others if others.is_empty() => format!("{name} excludes other arguments{}", see(error)),
-        others => format!("{name} and {others} exclude each other; expected one of them"),
+        others => format!("{name} and {others} exclude each other; give one of them"),
     }
 }
 
@@ -156,8 +156,8 @@ mod tests {
             ("run", "`quasilux run` lacks <PROJECT>; see `quasilux run --help`"),
             ("rum", "unknown command \"rum\"; expected one of run, annual, check, sky"),
             ("rum", "; did you mean \"run\"?"),
-            ("run x --seed 1 --seed 2", "--seed is given twice; expected it once"),
-            ("run x --plan p --seed 1", "--plan and --seed exclude each other; expected one"),
+            ("run x --seed 1 --seed 2", "--seed is given twice; give it once"),
+            ("run x --plan p --seed 1", "--plan and --seed exclude each other; give one"),
             ("run x --json=3", "--json"),
             ("shard x", "`quasilux shard` lacks --plan <FILE>, "),
             ("experiment octave", "expected one of cube, dimension"),

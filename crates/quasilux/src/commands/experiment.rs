@@ -20,7 +20,7 @@ pub(crate) fn experiment(arguments: &ExperimentArguments) -> Result<Exit, CliErr
         seed: arguments.seed,
     };
     if let Some(option) = experiment.unheeded(&options) {
-        tell(format_args!("warning: the experiment \"{name}\" takes no heed of {option}"));
+        tell(format_args!("warning: the experiment \"{name}\" ignores {option}"));
     }
     let folder = arguments.out.clone().unwrap_or_else(|| Path::new("out").join(name));
     results::prepare(&folder)?;

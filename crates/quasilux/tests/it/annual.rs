@@ -84,7 +84,7 @@ fn hours_under_the_open_sky_are_those_of_the_file() {
 fn what_has_no_year_is_refused() {
     let uniform = "[sky]\nmodel = \"uniform\"\nhorizontal_illuminance_lx = 100\n";
     for (name, rest, more, needle) in [
-        ("annual_no_weather", uniform, &[][..], "no weather; expected [weather] with file"),
+        ("annual_no_weather", uniform, &[][..], "no weather; add [weather] with file"),
         ("annual_hours", WEATHER, &["--occupied", "18-8"], "expected hours of a day, like 8-18"),
         ("annual_tolerance", WEATHER, &["--rel-tol", "0"], "expected a share"),
     ] {

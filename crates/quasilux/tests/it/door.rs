@@ -112,8 +112,9 @@ fn a_sensor_in_the_dark_is_told_why() {
     let run = folder.quasilux(&[&["run", "room.toml"], &SHORT[..]].concat());
     assert!(matches!(run.code, Some(0 | 3)), "{}", run.stderr);
     assert!(!run.stderr.contains("warning"), "{}", run.stderr);
-    let told = "no light was found at 1 point of 2 of sensor \"probes\", as at [1, 1, 0.5]: \
-                \"hood\" stands before the nearest lamp, and no surface in sight is lit";
+    let told = "no light was found at 1 point of 2 of sensor \"probes\", for example at \
+                [1, 1, 0.5]: \"hood\" stands in front of the nearest lamp, and no surface in sight \
+                is lit";
     assert!(run.stdout.contains(told), "{}", run.stdout);
     assert_eq!(checks(&parsed(&folder.read("out/room/result.json"))), ["sensor-dark"]);
 }

@@ -52,6 +52,6 @@ fn an_option_that_changes_nothing_is_named() {
     let points = ["experiment", "points", "--out", ".", "--seeds", "4"];
     assert_eq!(folder.quasilux(&points).stderr, "");
     let warned = folder.quasilux(&[&points[..], &["--seconds-per-point", "1s"]].concat());
-    let warning = "warning: the experiment \"points\" takes no heed of --seconds-per-point\n";
+    let warning = "warning: the experiment \"points\" ignores --seconds-per-point\n";
     assert_eq!((warned.code, warned.stderr.as_str()), (Some(0), warning));
 }

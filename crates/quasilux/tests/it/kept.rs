@@ -220,7 +220,7 @@ fn a_damaged_checkpoint_is_refused_or_its_predecessor_used() {
     folder.write("run.ck", damaged(&bytes, &mut Numbers(1)));
     let run = go_on(&folder, &[]);
     assert_eq!(run.code, Some(3), "{}", run.stderr);
-    assert!(run.stderr.contains("going on from run.ck.previous"), "{}", run.stderr);
+    assert!(run.stderr.contains("continuing from run.ck.previous"), "{}", run.stderr);
     assert_eq!(result(&folder, "kept"), without_seconds_and_threads(&plain));
     let mut numbers = Numbers(5);
     for name in ["run.ck.previous", "run.ck"] {

@@ -113,7 +113,11 @@ fn certified_limits_can_be_asked_for() {
     let refused = ["run", "room.toml", "--interval", "certified", "--estimator", "path"];
     let run = folder.quasilux(&refused);
     assert_eq!(run.code, Some(2));
-    assert!(run.stderr.contains("\"path\" bounds nothing"), "{}", run.stderr);
+    assert!(
+        run.stderr.contains("needs bounds, which the estimator \"path\" does not have"),
+        "{}",
+        run.stderr
+    );
 }
 
 #[test]

@@ -238,7 +238,7 @@ fn a_weather_file_has_places_of_the_sun_without_a_time() {
     let year = folder("sky_year", outside);
     year.write("site.wea", wea);
     let refused = must(&year, &["sky", "a.toml"], 2).stderr;
-    assert!(refused.contains("a.toml: ") && refused.contains("expected [sun] with"), "{refused}");
+    assert!(refused.contains("a.toml: ") && refused.contains("set time in [sun]"), "{refused}");
     let listed = document(&year, &["a.toml", "--positions", "2026-03-20"]);
     assert_eq!((&listed["sky"], number(&listed, "/site/time_zone_h")), (&Value::Null, -8.0));
     let drawn = ["sky", "a.toml", "--positions", "2026", "--png", "a.png"];
@@ -277,18 +277,18 @@ fn bad_input_is_refused() {
     );
     let cases: &[(&[&str], &str)] = &[
         (&[], "lacks <PROJECT>"),
-        (&["a.toml"], "a.toml: nothing is outside; expected [sky]"),
+        (&["a.toml"], "a.toml: nothing is outside; add [sky]"),
         (&["none.toml"], "none.toml: "),
         (&["even.toml", "--positions", "2026"], "even.toml: --positions needs a site"),
         (&["even.toml", "--type", "1"], "--type"),
         (&["even.toml", "--png", "even.toml"], "is read by this command"),
         (&["even.toml", "--png", "."], "is a folder"),
         (&["--type", "17"], "expected a whole number from 1 to 16"),
-        (&["--type", "12"], "expected --altitude and --azimuth"),
+        (&["--type", "12"], "give --altitude and --azimuth"),
         (&["--type", "12", "--altitude", "5"], "--azimuth"),
         (&["--type", "1", "--lx", "0"], "expected an illuminance above 0"),
         (&["--type", "12", "--altitude", "91", "--azimuth", "0"], "degrees from -90 to 90"),
-        (&["--type", "1", "--positions", "2026"], "expected --site"),
+        (&["--type", "1", "--positions", "2026"], "give --site"),
         (&["--type", "1", "--csv", "a.csv"], "--positions"),
         (&["--site", "1,2,3"], "--positions"),
         (&["--site", "91,2,3", "--positions", "2026"], "latitude_deg is 91; expected -90 to 90"),

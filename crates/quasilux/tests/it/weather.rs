@@ -67,7 +67,7 @@ fn years_and_nights_are_refused_where_no_lamp_shines() {
     };
     let year = run("weather_year", "");
     assert_eq!(year.code, Some(2), "{}", year.stderr);
-    let words = ["a.toml: ", "expected [sun] with time", "`quasilux annual` computes the year"];
+    let words = ["a.toml: ", "set time in [sun]", "`quasilux annual` computes the year"];
     assert!(words.iter().all(|word| year.stderr.contains(word)), "{}", year.stderr);
     let lit_year = run("weather_lit_year", lamp);
     assert_eq!(lit_year.code, Some(2), "{}", lit_year.stderr);
@@ -96,7 +96,7 @@ fn a_weather_file_alone_says_what_shines_at_a_time() {
     let days = sky(&["--positions", "2026-03-20"]);
     assert!(days.code == Some(0) && days.stdout.contains("2026-03-20"), "{}", days.stderr);
     for (more, expected) in [
-        (&[][..], "site.wea: no time says of which interval; expected --time"),
+        (&[][..], "site.wea: no time says which interval; give --time"),
         (&["--time", "2026-03-20T20:00"], "site.wea: no interval with 03-20 20:00 in it"),
         (&["--time", "2026-03-20T03:40"], "site.wea: nothing shines at 03-20 03:30:00"),
         (&["--time", "noon"], "--time is \"noon\"; expected 2026-03-20T12:00:00"),

@@ -84,7 +84,7 @@ def regular_file(path: str, *, most_bytes: int) -> Contents:
     """
     information = os.stat(path)
     if not stat.S_ISREG(information.st_mode):
-        raise OSError(errno.EINVAL, "no regular file", path)
+        raise OSError(errno.EINVAL, "not a regular file", path)
     if information.st_size > most_bytes:
         raise OSError(errno.EFBIG, f"the file is larger than {most_bytes >> 20} MiB", path)
     with open(path, "rb") as file:

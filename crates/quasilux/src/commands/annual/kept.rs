@@ -109,7 +109,7 @@ pub(in crate::commands) fn resume_year(arguments: &ResumeArguments) -> Result<Ex
     let quiet = arguments.output.quiet;
     let go_on = |reader: YearReader, Replayed { next, damage }: Replayed| {
         if let (Some(damage), false) = (damage, quiet) {
-            tell(format_args!("warning: {damage}; going on at point {next}"));
+            tell(format_args!("warning: {damage}; continuing at point {next}"));
         }
         let writer = reader.go_on().map_err(|error| cannot_keep(path, &error))?;
         Ok::<_, CliError>((next, writer))

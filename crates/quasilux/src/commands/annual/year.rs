@@ -245,9 +245,9 @@ impl<'p> Year<'p> {
         let held = self.calendar.skies.iter().filter(|hour| hour.sky.is_held()).count();
         if held > 0 {
             warnings.push(format!(
-                "{held} of {} hours with light have the sun too low for the sky of Perez (b > 0); \
-                 they have the nearest brightness that the model has a sky for, and the \
-                 illuminance of their own",
+                "the sky is approximate in {held} of {} hours with light: the sun is too low for \
+                 the model of Perez (b > 0). They take the nearest brightness that the model \
+                 covers, and keep their illuminance",
                 self.calendar.skies.len()
             ));
         }
@@ -269,8 +269,8 @@ impl<'p> Year<'p> {
         let all: Vec<String> = all.into_iter().flatten().collect();
         (!all.is_empty()).then(|| {
             format!(
-                "a year is of daylight alone, in all of its hours: it leaves out {} of the \
-                 project, which `quasilux run` looks at",
+                "a year leaves out {} of the project: it has daylight alone, in all of its hours. \
+                 `quasilux run` computes them",
                 all.join(", ")
             )
         })
@@ -303,8 +303,8 @@ fn weather(project: &Project) -> Result<&Weather, CliError> {
     let error = |message: &str| CliError::in_file(&project.name, None, message);
     let scene = &project.loaded.scene;
     if scene.sensors.is_empty() {
-        return Err(error("no sensors; expected at least one [[sensors]] for a year"));
+        return Err(error("no sensors; add at least one [[sensors]] for a year"));
     }
-    let expected = "no weather; expected [weather] with file, an EPW or WEA file";
+    let expected = "no weather; add [weather] with file, an EPW or WEA file";
     scene.weather.as_ref().ok_or_else(|| error(expected))
 }

@@ -32,7 +32,7 @@ pub(crate) fn sky(arguments: &SkyArguments) -> Result<Exit, CliError> {
     };
     let drawn = |cells| match &subject.sky {
         Some(sky) => Ok(picture::drawing(&subject, sky, cells)),
-        None => Err(CliError::new("there is no sky to draw; expected a project, or --type")),
+        None => Err(CliError::new("there is no sky to draw; give a project, or --type")),
     };
     if let Some(path) = &arguments.png {
         results::write_atomic(path, &drawn(PNG_CELLS)?.to_png(1.0))?;

@@ -63,7 +63,7 @@ impl Subject {
             .scene
             .environment
             .zip(loaded.sky)
-            .ok_or_else(|| refuse("nothing is outside; expected [sky]"))?;
+            .ok_or_else(|| refuse("nothing is outside; add [sky]"))?;
         let site = facts.site;
         let warnings = loaded.warnings.iter().map(ToString::to_string).collect();
         let sky = if !facts.lacks_time() {
@@ -72,8 +72,8 @@ impl Subject {
             None
         } else {
             return Err(refuse(
-                "the sky is that of a weather file, and no time says of which interval; expected \
-                 [sun] with time, such as 2026-03-20T12:30:00",
+                "no time says which interval of the weather file the sky is of; set time in \
+                 [sun], such as 2026-03-20T12:30:00",
             ));
         };
         Ok(Self { name, title, sky, site, warnings })
@@ -95,8 +95,8 @@ impl Subject {
             }
             None if arguments.positions.is_some() => None,
             None => {
-                let expected = "expected --time, like --time 2026-03-20T12:30";
-                return Err(refuse(format!("no time says of which interval; {expected}")));
+                let expected = "give --time, like --time 2026-03-20T12:30";
+                return Err(refuse(format!("no time says which interval; {expected}")));
             }
         };
         Ok(Self { name: String::new(), title: file, sky, site, warnings })
@@ -106,10 +106,10 @@ impl Subject {
     pub(super) fn site_for_positions(&self) -> Result<Site, CliError> {
         self.site.ok_or_else(|| {
             if self.name.is_empty() {
-                return CliError::new("--positions needs a site; expected --site");
+                return CliError::new("--positions needs a site; give --site");
             }
             let keys = "latitude_deg, longitude_deg and time_zone_h";
-            let message = format!("--positions needs a site; expected [site] with {keys}");
+            let message = format!("--positions needs a site; add [site] with {keys}");
             CliError::in_file(&self.name, None, message)
         })
     }
@@ -119,7 +119,7 @@ impl Subject {
 fn of_light(file: &str, at: LightAt, site: Option<Site>) -> Result<ShownSky, CliError> {
     let Some(light) = at.light else {
         let middle = at.middle.to_string().replacen('T', " ", 1);
-        let message = format!("nothing shines at {}; expected a time of the day", &middle[5..]);
+        let message = format!("nothing shines at {}; give a time of the day", &middle[5..]);
         return Err(CliError::in_file(file, None, message));
     };
     let model = SkyModel::Weather { file: file.to_owned() };
@@ -148,8 +148,8 @@ fn of_options(
     let sun = sun.map(|(altitude_deg, azimuth_deg)| SkyPoint { altitude_deg, azimuth_deg });
     if cie.needs_sun() && sun.is_none() {
         return Ok(Err(CliError::new(format!(
-            "the luminances of a CIE sky of type {number} depend on the sun; expected --altitude \
-             and --azimuth"
+            "the luminances of a CIE sky of type {number} depend on the sun; give --altitude and \
+             --azimuth"
         ))));
     }
     let zenith = SkyPoint { altitude_deg: 90.0, azimuth_deg: 0.0 };

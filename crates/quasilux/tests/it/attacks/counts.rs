@@ -28,7 +28,7 @@ fn counts_beyond_memory_are_refused_with_what_they_need() {
         folder.write("room.toml", &changed);
         let run = limited(&folder, &["run", "room.toml", "--threads", "2"]);
         let is_cells = place == "counts" || place == "spacing";
-        let words = if is_cells { "cells so far" } else { "bytes of memory" };
+        let words = if is_cells { "cells so far" } else { "not enough memory" };
         assert_refused(to, &run, &[&line_of(&changed, place), words]);
     }
 }

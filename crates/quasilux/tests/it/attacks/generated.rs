@@ -70,7 +70,7 @@ fn words(numbers: &mut Numbers) -> Vec<&'static str> {
 /// Files of bytes, and of what a library reads by names instead of lines.
 const WITHOUT_LINES: [&str; 6] = [".glb", ".gltf", ".ck", ".part", ".year", ".binary"];
 /// What is wrong with a file as a whole.
-const OF_ALL: [&str; 3] = ["no triangles", "are degenerate", "its sha256 is another"];
+const OF_ALL: [&str; 3] = ["no triangles", "are degenerate", "its sha256 differs"];
 
 /// Why a refusal does not say what is wrong with which file and where, if so.
 fn muteness_of(run: &Run, seeds: &[Seed], file: &str) -> Option<String> {
