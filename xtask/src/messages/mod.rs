@@ -2,7 +2,8 @@
 //! judge the English.
 //!
 //! [`rust`] collects them from Rust, [`python`] from Python. `cargo xtask messages` writes the list
-//! anew, and the architecture test compares: no text comes in, goes or changes unless the list does.
+//! anew, and the architecture test compares: no text comes in, goes or changes unless the list
+//! does.
 //! In it `{}` and `{name}` stand for values, and texts of a file stand in the order of the file.
 
 pub mod python;
