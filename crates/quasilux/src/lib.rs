@@ -31,6 +31,7 @@ mod print;
 mod project;
 mod results;
 mod source;
+mod time_left;
 mod watcher;
 mod year_file;
 

@@ -4,6 +4,7 @@
 #![allow(clippy::disallowed_methods, reason = "work is watched by the clock")]
 
 use crate::heartbeat::Heartbeat;
+use crate::time_left;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -68,8 +69,7 @@ impl Drop for Meter {
 
 /// The share that is done, and the time left at the pace so far.
 fn news(share: f64, elapsed_s: f64) -> String {
-    let left_s = elapsed_s * (1.0 - share) / share.max(1e-9);
-    format!("{:.0} % done, about {left_s:.0} s left", 100.0 * share)
+    format!("{:.0} % done, {}", 100.0 * share, time_left::in_words(share, elapsed_s))
 }
 
 #[cfg(test)]
@@ -78,7 +78,7 @@ mod tests {
 
     #[test]
     fn what_is_left_takes_as_long_as_what_is_done() {
-        assert_eq!(news(0.25, 10.0), "25 % done, about 30 s left");
-        assert_eq!(news(1.0, 10.0), "100 % done, about 0 s left");
+        assert_eq!(news(0.25, 10.0), "25 % done, 30 s left");
+        assert_eq!(news(1e-9, 8.0), "0 % done, time left not known yet");
     }
 }

@@ -7,6 +7,7 @@ use crate::forecast::Forecast;
 use crate::heartbeat::Heartbeat;
 use crate::interrupt;
 use crate::print::tell;
+use crate::time_left::{self, seconds_left};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use quasilux_report::number::{brief, count, memory};
 use quasilux_transport::{Control, Estimates, Observer, PictureProgress, Progress, Snapshot};
@@ -348,11 +349,9 @@ fn message(progress: &Progress, done: Option<f64>, elapsed_s: f64) -> String {
     let slope = progress.slope.map_or_else(String::new, |slope| format!(" ~ N^{slope:.2}"));
     // What a run that was gone on with took before is told at the pace of now.
     let pace_s = elapsed_s * rays.max(1.0) / own_rays;
-    let left = |done: f64| pace_s * (1.0 - done) / done;
-    let left = match (done, progress.done_of_first) {
-        (_, Some(done)) if done > 0.0 => format!("{:.0} s to the first values", left(done)),
-        (Some(done), _) if done > 0.0 => format!("{:.0} s left", left(done)),
-        _ => "? s left".to_owned(),
+    let left = match progress.done_of_first.map(|done| seconds_left(done, pace_s)) {
+        Some(Some(left_s)) => format!("{} s to the first values", brief(left_s, 2)),
+        _ => time_left::in_words(done.unwrap_or(0.0), pace_s),
     };
     let whole = progress.expected_rays.map_or_else(String::new, |expected| {
         format!(
@@ -373,10 +372,7 @@ fn picture_message(name: &str, picture: &PictureProgress, done: f64, elapsed_s: 
     let PictureProgress { samples, complete_samples, relative_half_width, rel_tol, .. } = *picture;
     let known = relative_half_width.map_or_else(|| "?".to_owned(), percent);
     let wanted = rel_tol.map_or_else(String::new, |share| format!(", goal {}", percent(share)));
-    let left = match done {
-        done if done > 0.0 => format!("{:.0} s left", elapsed_s * (1.0 - done) / done),
-        _ => "? s left".to_owned(),
-    };
+    let left = time_left::in_words(done, elapsed_s);
     format!(
         "picture {name}: pass with {} paths per pixel (previous {}), error {known}{wanted}, {left}",
         count(samples),
@@ -408,7 +404,7 @@ fn value(name: &str, illuminance_lx: &[Option<f64>]) -> Option<String> {
 mod tests {
     use super::*;
 
-    /// From the first checkpoint on: a thousandth is done after 2 s.
+    /// From the first checkpoint on: a tenth is done after 2 s.
     #[test]
     fn time_left_and_time_to_the_tolerance_are_told_apart() {
         let progress = Progress {
@@ -421,17 +417,14 @@ mod tests {
             slope: None,
             expected_samples: Some(1 << 16),
             expected_rays: Some(2_000_000),
-            done: Some(0.001),
+            done: Some(0.1),
             done_of_first: None,
             picture: None,
         };
         let text = message(&progress, progress.done, 2.0);
-        assert!(
-            text.ends_with("±10.00 %, 1998 s left, the tolerance after about 4000 s"),
-            "{text}"
-        );
+        assert!(text.ends_with("±10.00 %, 18 s left, the tolerance after about 4000 s"), "{text}");
         let text = message(&Progress { expected_rays: None, ..progress }, None, 2.0);
-        assert!(text.ends_with("±10.00 %, ? s left"), "{text}");
+        assert!(text.ends_with("±10.00 %, time left not known yet"), "{text}");
         let text = message(&Progress { done_of_first: Some(0.2), ..progress }, Some(0.9), 2.0);
         assert!(text.contains("±10.00 %, 8 s to the first values"), "{text}");
     }
@@ -451,7 +444,8 @@ mod tests {
         assert_eq!(text, wanted);
         let first = PictureProgress { samples: 1, ..PictureProgress::default() };
         let text = picture_message("door", &first, 0.0, 3.0);
-        let wanted = "picture door: pass with 1 paths per pixel (previous 0), error ?, ? s left";
+        let wanted = "picture door: pass with 1 paths per pixel (previous 0), error ?, time left not \
+                      known yet";
         assert_eq!(text, wanted);
     }
 
