@@ -36,7 +36,7 @@ impl GridPlane {
         }
     }
 
-    /// The same as flights from behind see it, where some of these come to the front of the grid's
+    /// The plane as flights from behind see it, where some of these come to the front of the grid's
     /// own normal. A surface in the grid's plane ends them before.
     pub(crate) fn behind(&self) -> Option<Self> {
         let Self { grid, origin, normal, dual } = *self;

@@ -76,9 +76,9 @@ pub(crate) struct BeyondPane<S> {
 pub(crate) struct World<S> {
     pub(crate) facets: Vec<Facet>,
     bsdfs: Vec<Bsdf<S>>,
-    /// What each keeps at most of light from all sides.
+    /// Largest share of the luminous flux from all sides that each material does not absorb.
     most_kept: Vec<f64>,
-    /// The same of the channel of which the most is kept.
+    /// Largest share in any channel that each material does not absorb.
     most_survives: Vec<f64>,
     bvh: Arc<TriangleBvh>,
     /// The emitting facets again, where some lie flush in another surface: they come first there.
@@ -198,12 +198,12 @@ impl<S: Spectrum> World<S> {
         self.most_kept[facet.material as usize]
     }
 
-    /// The same of the channel of which the most is left: the chance to survive there.
+    /// Largest share in any channel that a facet does not absorb: the survival probability there.
     pub(crate) fn most_survives_at(&self, facet: &Facet) -> f64 {
         self.most_survives[facet.material as usize]
     }
 
-    /// Whether any material sends on more than it gets.
+    /// Whether any material sends on more light than it gets.
     pub(crate) fn may_send_on_more(&self) -> bool {
         self.most_survives.iter().any(|share| *share > 1.0)
     }

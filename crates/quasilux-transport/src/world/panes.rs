@@ -4,10 +4,10 @@ use crate::spectrum::Spectrum;
 use crate::world::World;
 use quasilux_bvh::{Hit, RayQuery};
 
-/// What comes of light along a ray that panes alone stand in.
+/// Transmission along a ray that meets nothing but panes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Passage<S> {
-    /// The share that they let through.
+    /// Share of the light that the panes let through.
     pub(crate) transmitted: S,
     pub(crate) panes: u32,
 }

@@ -13,7 +13,7 @@ use std::f64::consts::FRAC_1_PI;
 pub(crate) struct Vertex<'w, S> {
     from: RayOrigin,
     n: DVec3,
-    /// What light that arrives here counts where the path starts, but for the scattering here.
+    /// Throughput from the start of the path to here, without the scattering here.
     beta: S,
     surface: Option<&'w Surface<'w, S>>,
 }
@@ -106,7 +106,7 @@ impl<'w, S: Spectrum> Vertex<'w, S> {
         (!self.takes_both_sides()).then_some(self.n)
     }
 
-    /// What a lux that arrives here from `direction` counts where the path starts.
+    /// Weight, where the path starts, of each lux that arrives here from `direction`.
     pub(crate) fn weight(&self, direction: DVec3) -> S {
         match &self.surface {
             None => self.beta,
@@ -117,7 +117,7 @@ impl<'w, S: Spectrum> Vertex<'w, S> {
         }
     }
 
-    /// Whether that is the same from everywhere on the only side.
+    /// Whether [`Self::weight`] is the same for all directions on the only side.
     pub(crate) fn is_plain(&self) -> bool {
         self.surface.is_none_or(|surface| surface.bsdf.keeps_illuminance())
     }
@@ -142,8 +142,8 @@ impl<'w, S: Spectrum> Vertex<'w, S> {
         }
     }
 
-    /// The same of light that arrives from `direction` and goes on toward the start of the path; 0
-    /// at the start.
+    /// Density in sr^-1 of light that arrives from `direction` and goes on toward the start of the
+    /// path, survival in it; 0 at the start.
     pub(crate) fn reverse_survival_pdf_sr(&self, direction: DVec3) -> f64 {
         self.surface.as_ref().map_or(0.0, |Surface { bsdf, frame, wo, .. }| {
             bsdf.survival_pdf_sr(frame.to_local(direction), *wo, 1.0)

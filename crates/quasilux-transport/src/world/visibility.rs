@@ -11,7 +11,7 @@ use crate::world::vertex::Vertex;
 use glam::DVec3;
 use quasilux_bvh::RayQuery;
 
-/// What a light gives to a place unless something stands in the way.
+/// Direct light from a place on a light, unless something stands in the way.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LightSample<S> {
     /// Unit direction to the place on the light.
@@ -19,7 +19,7 @@ pub(crate) struct LightSample<S> {
     pub(crate) distance_m: f64,
     /// The facet that the place lies on, [`RayQuery::NONE`] for none.
     pub(crate) facet: u32,
-    /// The part of an estimate of what the path finds that hangs on the visibility.
+    /// The term of the path's estimate that depends on the visibility.
     pub(crate) light: S,
     /// Illuminance in lx that the light gives to the place, about what photons of it bring there.
     pub(crate) illuminance_lx: f64,
@@ -42,11 +42,11 @@ pub(crate) struct ShadowQueue<S> {
     questions: Vec<Question<S>>,
     visible: Vec<bool>,
     passages: Vec<Option<Passage<S>>>,
-    /// This many mirrors and panes may be in the way of what is asked for next.
+    /// Largest number of mirrors and panes in the way of the light that is asked for next.
     pub(crate) max_bounces: u32,
 }
 
-/// Light that somebody gets if nothing stands in the way.
+/// Light that a vertex requests, and gets if nothing stands in the way.
 struct Question<S> {
     who: u32,
     light: S,
@@ -54,11 +54,11 @@ struct Question<S> {
     shadow_rays: u32,
     /// How many mirrors the way leads over.
     mirrors: u32,
-    /// This many panes may stand in it, all together.
+    /// Largest number of panes in the way, all together.
     max_panes: u32,
 }
 
-/// What becomes of light that somebody asked for.
+/// Outcome of a request for light.
 pub(crate) struct Answer<S> {
     pub(crate) who: u32,
     pub(crate) light: S,
@@ -161,7 +161,8 @@ impl<S: Spectrum> ShadowQueue<S> {
         });
     }
 
-    /// The same, and tells of light that is blocked, too.
+    /// Tells `receive` the outcome of all questions, of blocked light too, in the order asked, and
+    /// closes them.
     pub(crate) fn answer_all(&mut self, world: &World<S>, mut receive: impl FnMut(Answer<S>)) {
         self.rays += self.shadow_rays.len() as u64;
         if world.has_panes() {
