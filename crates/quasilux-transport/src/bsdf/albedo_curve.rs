@@ -68,7 +68,7 @@ impl AlbedoCurve {
         (libm::log1p(cos.max(0.0) / self.alpha) / self.range).min(1.0).sqrt()
     }
 
-    /// What is at `s`.
+    /// Cosine, its derivative by `s`, and albedo at `s`.
     pub(super) fn place(&self, s: f64) -> CurvePlace {
         let grown = self.alpha * libm::exp(self.range * s * s);
         let cos_by_s = 2.0 * self.range * s * grown;

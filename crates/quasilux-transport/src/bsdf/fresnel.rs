@@ -6,7 +6,7 @@
 pub(super) struct Boundary {
     /// Reflected over incident flux of light polarised across the plane of incidence.
     pub(super) across: f64,
-    /// The same of light polarised in that plane.
+    /// Reflected over incident flux of light polarised in the plane of incidence.
     pub(super) within: f64,
     /// Cosine of the refracted ray with the normal; 0 where all is reflected.
     pub(super) cos_refracted: f64,

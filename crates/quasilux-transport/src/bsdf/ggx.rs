@@ -50,7 +50,8 @@ impl Ggx {
         self.normals((wo + wi).normalize()) / (2.0 * shared)
     }
 
-    /// What `f cos / pdf` of [`sample_reflection`] comes to, without division by small numbers.
+    /// Value of `f cos / pdf` for [`sample_reflection`], computed without division by small
+    /// numbers.
     pub(super) fn weight(self, wo: DVec3, wi: DVec3) -> f64 {
         let shared = self.stretch(wo) * wi.z + self.stretch(wi) * wo.z;
         if wi.z > 0.0 { wi.z * self.cap(wo).reach / shared } else { 0.0 }

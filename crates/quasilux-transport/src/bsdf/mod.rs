@@ -70,7 +70,7 @@ pub(crate) enum Bsdf<S> {
     Measured(Box<Measured>),
 }
 
-/// What travels.
+/// Quantity that is transported: radiance from the sensors, importance from the lights.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum TransportMode {
     /// Paths: `wo` is where radiance goes.
@@ -99,7 +99,7 @@ impl<S: Spectrum> BsdfSample<S> {
 }
 
 impl<S: Spectrum> Bsdf<S> {
-    /// What a scene says of a surface, in the channels of this simulation.
+    /// Converts the BSDF of a scene to the channels of this simulation.
     pub(crate) fn new(bsdf: &quasilux_scene::Bsdf) -> Self {
         use quasilux_scene::Bsdf as In;
         match bsdf {
@@ -159,8 +159,8 @@ impl<S: Spectrum> Bsdf<S> {
         self.transmits() || self.straight_transmittance(1.0).is_some()
     }
 
-    /// Whether the light that leaves it hangs on its illuminance alone, so that an illumination map
-    /// can stand on it.
+    /// Whether the light that leaves it depends on its illuminance alone, so that an illumination
+    /// map can stand on it.
     pub(crate) fn keeps_illuminance(&self) -> bool {
         match self {
             Self::Diffuse(_) => true,
@@ -188,9 +188,9 @@ impl<S: Spectrum> Bsdf<S> {
         }
     }
 
-    /// What it mirrors of light that comes at this cosine on its front, or on its back, where all
-    /// of the rest is absorbed or goes straight on, so that images can be followed; `None` for
-    /// other surfaces.
+    /// Mirror reflectance at this cosine, on the front or on the back, of a surface where all of
+    /// the rest is absorbed or goes straight on, so that images can be followed; `None` for other
+    /// surfaces.
     pub(crate) fn image_reflectance(&self, cos: f64, front: bool) -> Option<S> {
         match self {
             Self::Mirror(mirror) => Some(mirror.reflectance),
@@ -204,7 +204,7 @@ impl<S: Spectrum> Bsdf<S> {
         }
     }
 
-    /// What goes straight through at this cosine; `None` where nothing does.
+    /// Transmittance of light that goes straight through at this cosine; `None` where none does.
     pub(crate) fn straight_transmittance(&self, cos: f64) -> Option<S> {
         match self {
             Self::Pane(pane) => Some(pane.pane_transmittance(cos)),
