@@ -9,7 +9,7 @@ pub enum StateError {
     /// They end before the state does, or go on behind it.
     #[error("the state is not as long as it says")]
     Length,
-    /// What they say cannot be, or belongs to another scene or other settings.
+    /// Contents that cannot be, or that belong to another scene or other settings.
     #[error("{0} does not fit this scene and these settings")]
     Unfit(&'static str),
     /// Surveys and pilots come to other decisions here than where the state comes from.
