@@ -33,7 +33,7 @@ const PROBES: u32 = 4;
 /// The luminaires with a luminous area.
 pub(crate) struct AreaLuminaires<'a> {
     lights: Vec<AreaLuminaire<'a>>,
-    /// The same luminaires.
+    /// Approximations of the same luminaires, by which one is chosen.
     coarse: CoarseLights<'a>,
     choice: LightChoice,
 }
@@ -45,7 +45,7 @@ pub(crate) struct ChosenPlace {
     pub(crate) place: SurfacePoint,
 }
 
-/// What a place on a luminous shape gives.
+/// Incident light from a place on a luminous shape.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PlaceIncidence {
     /// Unit direction to the place.
@@ -159,8 +159,8 @@ impl<'a> AreaLuminaires<'a> {
         self.choice.probability(number, at, around, weights)
     }
 
-    /// What a place on one of them gives, over the density of its silhouette as seen from a
-    /// position; `cos` gives the cosine that illuminance takes.
+    /// Incident light from a place on one of the luminaires, over the density of its silhouette as
+    /// seen from a position; `cos` gives the cosine that illuminance takes.
     pub(crate) fn incidence(
         &self,
         number: usize,
@@ -196,7 +196,7 @@ impl AreaLuminaire<'_> {
         (intensity_cd * cos + DEFENSIVE_SHARE * mean_cd) / square_m2
     }
 
-    /// The same in some surroundings.
+    /// About the illuminance in lx that it gives in some surroundings, unshadowed.
     fn weight_around(&self, around: &Surroundings) -> f64 {
         let mean_cd = self.flux_lm / (4.0 * PI);
         let intensity_cd =

@@ -9,7 +9,8 @@ use crate::world::Facet;
 use glam::{DVec3, Vec3};
 use std::f32::consts::TAU;
 
-/// What is nearer to dark than this part of the scene is not called dark. No cosine counts less.
+/// Margin for rounding, as a fraction of the scene's extent: facets this near to dark are not
+/// called dark. Also the least cosine that counts.
 const ROUNDING: f32 = 1e-5;
 /// No luminance, over that of the brightest, and no solid angle in sr counts less, so that no
 /// product of them becomes 0.

@@ -25,7 +25,7 @@ const SLACK: f32 = 1e-4;
 /// The least square of a distance: weights are numbers at a light, too.
 const MIN_SQUARE_M2: f32 = 1e-12;
 
-/// What is known of some lights.
+/// Approximate positions, extents and intensities of some lights.
 pub(super) struct CoarseLights<'a> {
     /// The mean intensity of all lights together, in cd: weights are relative to it, so that they
     /// are numbers in single precision, the same for lights that are all dimmed.
@@ -42,7 +42,7 @@ struct CoarseLight {
     luminaire_from_world: Mat3,
     /// Its mean intensity.
     mean: f32,
-    /// What it has beside the intensity along its centre.
+    /// Intensity added for what it has beside its centre, in the unit of `mean`.
     spread: f32,
     table: usize,
 }
@@ -158,7 +158,7 @@ impl Table<'_> {
     }
 }
 
-/// What becomes of the intensities of several lights.
+/// Geometric factors of the light from several lights.
 struct Geometry {
     /// At least 0.
     cosines: [f32; LANES],

@@ -29,7 +29,8 @@ pub(crate) struct Emitters {
 pub(crate) struct EmitterPoint {
     /// Unit direction to it.
     pub(crate) direction: DVec3,
-    /// What a steradian of its luminance gives in lx, were all of it to arrive.
+    /// Luminance times cosine, in lx/sr: illuminance for each steradian of light of its luminance,
+    /// were all of it to arrive.
     pub(crate) lx_sr: f64,
     /// Density with which it was drawn.
     pub(crate) pdf_sr: f64,
@@ -65,8 +66,8 @@ impl Emitters {
         self.group.sample_by_flux(world, u)
     }
 
-    /// What one point on the lights gives, weighted against other techniques, `None` from behind
-    /// either. The weight is that of its density over this and `beside_sr` together.
+    /// Direct light from one point on the lights, weighted against other techniques, `None` from
+    /// behind either. The weight is that of its density over this and `beside_sr` together.
     pub(crate) fn light_sample<S: Spectrum>(
         &self,
         world: &World<S>,

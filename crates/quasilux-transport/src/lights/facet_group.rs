@@ -32,7 +32,7 @@ pub(crate) struct EmitterPlace {
     pub(crate) position: DVec3,
 }
 
-/// The same, drawn with some density.
+/// Place on an emitting facet, with the density in m^-2 that it was drawn with.
 pub(super) struct DrawnPlace {
     pub(super) drawn: EmitterPlace,
     pub(super) pdf_m2: f64,

@@ -62,11 +62,11 @@ pub(crate) struct Lights<'a> {
     fluxes_lm: Vec<f64>,
     /// Number of the first way in.
     first_way_in: usize,
-    /// What all photons carry together, in lm: the sum of the fluxes of lamps and ways in.
+    /// Flux in lm of all photons together: the sum of the fluxes of lamps and ways in.
     pub(crate) flux_lm: f64,
 }
 
-/// What a number of [`Lights`] stands for, with its number in its kind.
+/// Kind of the light that a number of [`Lights`] stands for, with its number in that kind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum LightKind {
     Pointlike(usize),
@@ -76,7 +76,7 @@ pub(crate) enum LightKind {
     WayIn(usize),
 }
 
-/// What is outside, and how its photons come in.
+/// Light from outside, and how its photons come in.
 #[derive(Clone, Copy)]
 pub(crate) struct WaysIn<'l, 'a> {
     pub(crate) outside: &'l OutsideLight<'a>,

@@ -38,10 +38,11 @@ use quasilux_scene::{Environment, Opening, Scene};
 use quasilux_sky::solid_angle_of_the_sun_sr;
 use std::f64::consts::{FRAC_1_PI, TAU};
 
-/// What may lie between the directions by which [`OutsideLight::brightest_cd_m2`] is looked up.
+/// Factor on [`OutsideLight::brightest_cd_m2`] for what may lie between the directions by which it
+/// is looked up.
 pub(crate) const SKY_MARGIN: f64 = 1.25;
 
-/// What a cosine counts at least: openings reach further than their centres.
+/// The least cosine that counts: openings reach further than their centres.
 const MIN_COSINE: f64 = 0.1;
 
 /// The least luminance behind an opening that counts, over that of an even sky of the same
@@ -179,7 +180,7 @@ impl<'a> OutsideLight<'a> {
         self.sun.is_some()
     }
 
-    /// What a ray finds that leaves the scene, but for the sun, in cd/m2.
+    /// Luminance in cd/m2 along a ray that leaves the scene, without the sun.
     pub(crate) fn luminance_cd_m2(&self, direction: DVec3) -> f64 {
         self.environment.luminance_cd_m2(direction)
     }
@@ -190,7 +191,7 @@ impl<'a> OutsideLight<'a> {
         middles.map(|direction| self.luminance_cd_m2(direction)).fold(0.0, f64::max)
     }
 
-    /// What it finds of the sun.
+    /// Luminance of the sun in cd/m2 along a ray that leaves the scene; 0 beside its disk.
     pub(crate) fn sun_cd_m2(&self, direction: DVec3) -> f64 {
         // One less the cosine of an angle is half of the squared chord.
         let chord_squared = |sun: &SunDisk| (direction - sun.direction).length_squared();
@@ -227,8 +228,8 @@ impl<'a> OutsideLight<'a> {
             .map_or([0.0; 2], |sun| [sun.luminance_cd_m2, sun.luminance_cd_m2 * sun.solid_angle_sr])
     }
 
-    /// What comes through one point of the openings or from a bright pixel, weighted against the
-    /// direction in which the path goes on, which is drawn in the same way with a chance.
+    /// Direct light through one point of the openings or from a bright pixel, weighted against the
+    /// direction in which the path goes on, which is drawn in the same way with some probability.
     pub(crate) fn light_sample<S: Spectrum>(
         &self,
         vertex: &Vertex<'_, S>,
@@ -301,7 +302,7 @@ impl<'a> OutsideLight<'a> {
         self.bright.as_ref().map_or(0.0, |bright| bright.share)
     }
 
-    /// What one point of the sun's disk gives.
+    /// Direct light from one point of the sun's disk.
     pub(crate) fn sun_sample<S: Spectrum>(
         &self,
         vertex: &Vertex<'_, S>,

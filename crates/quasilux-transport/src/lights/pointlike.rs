@@ -14,7 +14,7 @@ use std::f64::consts::PI;
 /// The lights without extent: points, and luminaires without a luminous area.
 pub(crate) struct PointLikes<'a> {
     lights: Vec<&'a Light>,
-    /// The same lights.
+    /// Approximations of the same lights, by which one is chosen.
     coarse: CoarseLights<'a>,
     choice: LightChoice,
 }
@@ -73,8 +73,8 @@ impl<'a> PointLikes<'a> {
         intensity_cd(self.lights[index as usize], direction)
     }
 
-    /// What all of them give, every one tested: tells `receive` who gets how much. One light comes
-    /// after the other, so that rays toward the same light are neighbours.
+    /// Tests all lights for all receivers, and tells `receive` who gets how much light. One light
+    /// comes after the other, so that rays toward the same light are neighbours.
     pub(crate) fn all<S: Spectrum>(
         &self,
         world: &World<S>,
@@ -109,7 +109,7 @@ impl<'a> PointLikes<'a> {
         incidence.map_or(0.0, |incidence| incidence.illuminance_lx)
     }
 
-    /// What one of them gives to a place if nothing stands in the way.
+    /// Light from one of them to a place if nothing stands in the way.
     pub(crate) fn light_sample_of<S: Spectrum>(
         &self,
         index: usize,
@@ -146,7 +146,8 @@ impl<'a> PointLikes<'a> {
         self.choice.probability(number, place, around, self.weights(place))
     }
 
-    /// What each gives to a place unshadowed, in lx.
+    /// Unshadowed illuminance in lx that each gives to a place, without the cosine where light
+    /// counts from both sides.
     fn weights(&self, place: Asking) -> impl Iterator<Item = f64> {
         let Asking { position, side, .. } = place;
         let lx = move |number| {
@@ -213,7 +214,7 @@ pub(crate) struct Incidence {
     pub(crate) direction: DVec3,
     pub(crate) distance_m: f64,
     pub(crate) illuminance_lx: f64,
-    /// What a candela would give.
+    /// Illuminance in lx for each candela.
     pub(crate) lx_per_cd: f64,
 }
 
@@ -225,7 +226,7 @@ impl Incidence {
         incidence.filter(|incidence| incidence.lx_per_cd > 0.0)
     }
 
-    /// The same where `cos` gives the cosine that illuminance takes, of a unit direction.
+    /// E = I cos / d^2 where `cos` gives the cosine that illuminance takes, of a unit direction.
     fn with_cosine(light: &Light, place: DVec3, cos: impl FnOnce(DVec3) -> f64) -> Option<Self> {
         let toward = self::position(light) - place;
         let distance_m = toward.length();

@@ -31,7 +31,7 @@ const CUBES_ACROSS: f64 = 24.0;
 const MAX_ENTRIES: usize = 1 << 24;
 /// Sides: along and against each axis, and both sides of whatever faces anywhere.
 const SIDES: usize = 7;
-/// What a cosine counts at least: surfaces in a cube do not face quite along its axis.
+/// The least cosine that counts: surfaces in a cube do not face quite along its axis.
 const MIN_COSINE: f64 = 0.1;
 /// The least square of a distance that counts, in those of the edge of a cube.
 const MIN_SQUARE: f64 = 1.0 / 64.0;
@@ -61,7 +61,7 @@ pub(crate) struct Asking {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ChosenLight {
     pub(super) light: usize,
-    /// What its light is to be divided by: the probability of the choice.
+    /// Probability of the choice, which divides the light.
     pub(super) pdf: f64,
     /// The rest of the coordinate that chose it.
     pub(super) u_remapped: f64,

@@ -4,7 +4,7 @@ use crate::spectrum::Spectrum;
 use crate::world::vertex::Vertex;
 use std::collections::HashMap;
 
-/// What the whole scene says of a side of a facet counts as much as this many suns asked there.
+/// Weight of the counts of the whole scene against those of a side of a facet, in suns asked there.
 const PRIOR: f64 = 32.0;
 
 /// How a sun may shine on a vertex.

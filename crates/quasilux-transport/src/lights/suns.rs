@@ -8,10 +8,10 @@ use crate::world::visibility::LightSample;
 use glam::{DVec3, Vec3};
 use std::sync::Arc;
 
-/// This many suns are asked at a vertex where nothing is known.
+/// Number of suns asked at a vertex where nothing is known.
 const ASKED: f64 = 32.0;
-/// On ways on which no sun was found to shine, one is asked at this share of the vertices, for
-/// nobody can know.
+/// Share of the vertices at which one sun is asked on ways on which none was found to shine: the
+/// ones asked may have missed it.
 const RARELY: f64 = 0.125;
 
 /// Directions in which the sun may stand.
@@ -19,7 +19,7 @@ const RARELY: f64 = 0.125;
 pub(crate) struct Suns {
     /// Unit vectors towards them.
     directions: Vec<DVec3>,
-    /// The same by coordinate, for who looks at all of them.
+    /// Coordinates of the same vectors, for loops over all suns.
     coordinates: [Vec<f32>; 3],
     /// How often they were found to shine; `None` while that is learnt.
     ways: Option<Arc<SunWays>>,
@@ -28,9 +28,9 @@ pub(crate) struct Suns {
 /// Numbers of suns above the horizon of a vertex; working space.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct SunChoice {
-    /// What each sun is to the vertex.
+    /// Class of each sun at the vertex: 0, [`BESIDE`] or [`THROUGH`].
     sides: Vec<u8>,
-    /// Those of one way.
+    /// Numbers of the suns of one way.
     chosen: Vec<u32>,
 }
 

@@ -32,7 +32,7 @@ pub(crate) struct Links(Vec<Link>);
 #[derive(Clone, Copy, Debug)]
 struct Link {
     point: DVec3,
-    /// The same, off the edges of its facet.
+    /// The point, moved inward from the edges of its facet.
     inner: DVec3,
     facet: u32,
     /// Unit normal on the side that reflects.
@@ -46,7 +46,7 @@ pub(crate) struct UnfoldedPath<S> {
     links: Range<usize>,
     /// Unit direction in which the light leaves its light.
     pub(crate) leaves: DVec3,
-    /// What all mirrors together reflect.
+    /// Share of the light that all mirrors together reflect.
     pub(crate) reflected: S,
 }
 

@@ -28,9 +28,9 @@ impl Cone {
         if least > 0.0 { Self::new(axis, libm::acos(least)) } else { Self::EVERYWHERE }
     }
 
-    /// The same for light that starts no farther than `radius_m` from the apex: holds the
-    /// directions in which it leaves, and those from the apex to all that it reaches through the
-    /// polygons.
+    /// A cone around convex polygons for light that starts no farther than `radius_m` from the
+    /// apex: holds the directions in which it leaves, and those from the apex to all that it
+    /// reaches through the polygons.
     pub(crate) fn around_ball(apex: DVec3, radius_m: f64, corners: &[DVec3]) -> Self {
         let cone = Self::around(apex, corners);
         let along = corners.iter().map(|&corner| (corner - apex).dot(cone.axis));
@@ -106,7 +106,7 @@ mod tests {
         assert!(Cone::around(apex, &[apex, DVec3::X]).holds(DVec3::NEG_Y));
     }
 
-    /// What light of a ball reaches through a window, at any distance, is in its cone.
+    /// All places that light of a ball reaches through a window, at any distance, are in its cone.
     #[test]
     fn a_cone_holds_what_a_ball_lights_through_a_window() {
         let corners = [(0.0, 0.0), (2.0, 0.0), (2.0, 1.0)].map(|(x, y)| DVec3::new(x, y, 1.0));

@@ -20,7 +20,7 @@ use glam::DVec3;
 use quasilux_sampling::Discrete;
 use std::collections::BTreeMap;
 
-/// What mirrors show of all area lights.
+/// Mirror images of all area lights.
 pub(super) struct EmitterImages {
     /// The emitting facets of one material are one light.
     images: Images,
@@ -128,7 +128,7 @@ impl EmitterImages {
         self.light_of_material.get(&material).copied()
     }
 
-    /// What a mirror in this plane shows of an image.
+    /// Image of an image in the mirrors of a plane.
     pub(super) fn child(&self, image: u32, plane: u32) -> Option<u32> {
         self.images.child(image, plane)
     }

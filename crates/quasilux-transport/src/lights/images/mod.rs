@@ -49,7 +49,7 @@ pub(crate) struct SpecularImages {
     emitters: EmitterImages,
 }
 
-/// What images offer to one place, and working space.
+/// Light samples of images for one place, and working space.
 #[derive(Default)]
 pub(crate) struct ImageSamples<S> {
     links: Links,
@@ -57,7 +57,7 @@ pub(crate) struct ImageSamples<S> {
     choice: ChoiceWork,
 }
 
-/// Who asks images for light, and what stands around.
+/// A place that requests light from images, and what stands around.
 pub(crate) struct ImageQuery<'q, S> {
     pub(crate) world: &'q World<S>,
     pub(crate) pointlikes: &'q PointLikes<'q>,
@@ -66,7 +66,7 @@ pub(crate) struct ImageQuery<'q, S> {
     pub(crate) vertex: &'q Vertex<'q, S>,
 }
 
-/// What one image gives to a place unless something stands in the path.
+/// Light from one image to a place, unless something stands in the path.
 struct ImageSample<S> {
     image: u32,
     path: UnfoldedPath<S>,
@@ -114,7 +114,7 @@ impl SpecularImages {
         Self { mirrors, images, emitters }
     }
 
-    /// What a mirror facet shows of an image.
+    /// Image of an image in a mirror facet.
     fn shown_by(&self, image: u32, facet: u32) -> Option<u32> {
         self.images.child(image, self.mirrors.of_facet(facet)?)
     }
@@ -166,7 +166,7 @@ impl SpecularImages {
         self.emitters.light(material)
     }
 
-    /// What the mirror in a plane shows of an image of an area light.
+    /// Image of an image of an area light in the mirrors of a plane.
     pub(crate) fn emitter_in(&self, image: u32, plane: u32) -> Option<u32> {
         self.emitters.child(image, plane)
     }
@@ -187,7 +187,7 @@ impl SpecularImages {
         self.emitters.pdf_m2(world, &self.mirrors, image, place, asked)
     }
 
-    /// What all of them give to sensor points, every one tested: tells `receive` who gets how much.
+    /// Tests all images for all sensor points, and tells `receive` who gets how much light.
     pub(crate) fn all<S: Spectrum>(
         &self,
         world: &World<S>,

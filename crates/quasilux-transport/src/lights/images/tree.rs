@@ -60,7 +60,7 @@ pub(crate) struct Imaged {
     pub(crate) radius_m: f64,
 }
 
-/// What one mirror of a chain shows of a point on the light.
+/// Plane of a mirror of a chain, and where that mirror shows a point on the light.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Shown {
     pub(crate) plane: u32,
@@ -136,7 +136,7 @@ impl Images {
         true
     }
 
-    /// What one more mirror shows of an image, where any of it may be seen.
+    /// Image of an image in one more mirror, where any of it may be seen.
     fn image_in(
         &self,
         mirrors: &MirrorPlanes,
@@ -178,12 +178,14 @@ impl Images {
         Some(children.start + place as u32)
     }
 
-    /// What the mirrors of an image show of its light, the last one first.
+    /// Planes of the mirrors of an image, with the positions where they show its light; the last
+    /// mirror first.
     pub(crate) fn shown(&self, image: u32) -> impl Iterator<Item = Shown> {
         self.chain(image).map(|node| Shown { plane: node.plane, position: node.position })
     }
 
-    /// The same of a point on the light.
+    /// Planes of the mirrors of an image, with the positions where they show a point on the light;
+    /// the last mirror first.
     pub(crate) fn shown_of(&self, mirrors: &MirrorPlanes, image: u32, point: DVec3) -> Vec<Shown> {
         let mut shown: Vec<Shown> = self
             .chain(image)

@@ -46,7 +46,7 @@ impl fmt::Display for UnshownWay {
 }
 
 impl SpecularImages {
-    /// What specular surfaces do with the light of points and luminaires that no image shows and no
+    /// Ways over specular surfaces, of light of points and luminaires, that no image shows and no
     /// path finds.
     pub(crate) fn unshown_ways<S: Spectrum>(
         &self,

@@ -35,7 +35,7 @@ const AROUND_SENSORS: f64 = 1.0 / 16.0;
 /// Lines are followed from this many radii of the box.
 const REACH: f64 = 4.0;
 
-/// What shines beside it, and who counts the photons.
+/// Light beside that from outside, and whether sensors count the photons.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Beside {
     /// Whether photons are counted on their way at sensors, wherever these stand.
@@ -47,7 +47,7 @@ pub(crate) struct Beside {
 /// How photons come in.
 pub(crate) struct OutsidePhotons {
     hull: Hull,
-    /// What lines beside openings must not go through.
+    /// Openings that lines beside them must not go through.
     openings: Apertures,
     ways: Vec<WayIn>,
 }
@@ -71,7 +71,7 @@ struct WayIn {
     counted_lm: f64,
 }
 
-/// What lines are drawn through.
+/// Surfaces that lines are drawn through.
 enum Gate {
     Hull,
     Openings(Apertures),

@@ -39,7 +39,7 @@ impl<'l, 'a, S: Spectrum> Views<'l, 'a, S> {
         Self { outside, world, rays_of_a_side: (RAYS / sides).clamp(1, RAYS_OF_A_SIDE) }
     }
 
-    /// Which part of the light of sky and ground gets to the front of each portal, and to the back.
+    /// Share of the light of sky and ground that gets to the front of each portal, and to the back.
     pub(super) fn of_sky(&self) -> Vec<[f64; 2]> {
         let look = |portal: &Portal, n: DVec3, index: u64| {
             let u = [2, 3].map(|base| radical_inverse(base, index + 1));
@@ -49,7 +49,8 @@ impl<'l, 'a, S: Spectrum> Views<'l, 'a, S> {
         self.openness(look)
     }
 
-    /// The same of the sun in this direction.
+    /// Share of the light of the sun in this direction that gets to the front of each portal, and
+    /// to the back.
     pub(super) fn of_sun(&self, sun: DVec3) -> Vec<[f64; 2]> {
         self.openness(|portal, n, index| {
             let faces = f64::from(u8::from(n.dot(sun) > 0.0));
