@@ -130,7 +130,7 @@ pub enum Caveat {
         samples: u64,
         /// Half-width over value; `None` where there is none.
         relative_half_width: Option<f64>,
-        /// What was wanted of it.
+        /// Relative half-width that was wanted.
         rel_tol: f64,
     },
     /// A picture that was stopped before it had the wanted number of paths.
@@ -211,17 +211,17 @@ impl Caveat {
         }
     }
 
-    /// That photons were terminated, if any were.
+    /// Caveat of terminated photons, if there are any.
     pub(crate) fn of_photons(photons: u64) -> Option<Self> {
         (photons > 0).then_some(Self::PhotonsTerminated { photons })
     }
 
-    /// The same of paths from sensors.
+    /// Caveat of terminated paths from sensors, if there are any.
     pub(crate) fn of_paths(paths: u64) -> Option<Self> {
         (paths > 0).then_some(Self::PathsTerminated { paths })
     }
 
-    /// The same of paths through pixels.
+    /// Caveat of terminated paths through pixels, if there are any.
     pub(crate) fn of_picture_paths(paths: u64) -> Option<Self> {
         (paths > 0).then_some(Self::PicturePathsTerminated { paths })
     }
@@ -249,7 +249,7 @@ mod tests {
     use super::*;
     use serde_json::{Value, to_value};
 
-    /// Those without figures, of one, and of a list.
+    /// Caveats without figures, with one, and with a list.
     #[test]
     fn documents_have_the_kinds() {
         let ways = vec![UnshownWay::ThroughBodies];

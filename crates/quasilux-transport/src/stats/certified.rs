@@ -4,7 +4,7 @@
 //! has the proofs), each of which misses with half of the probability that is allowed.
 //!
 //! - **Lower**: replicates are independent, have the mean that is looked for, and are never
-//!   negative. Somebody who bets a part h of all money on each replicate Y against a mean of m has
+//!   negative. A player who bets a part h of all money on each replicate Y against a mean of m has
 //!   `prod (1 + h (Y / m - 1))` times as much at the end. Were the mean m or less, this would be 1
 //!   on average at most, and would pass 1 / d with a probability of d at most, by Markov's
 //!   inequality (I. Waudby-Smith and A. Ramdas, "Estimating means of bounded random variables by
@@ -35,14 +35,14 @@ pub struct CertifiedInterval {
     pub upper_lx: f64,
 }
 
-/// What bounds the totals of indices at each point of a sensor, where indices are independent.
+/// Bounds on the totals of indices at each point of a sensor, where indices are independent.
 ///
 /// Let T be the total of an index, in which what is still to come is B at most on average whenever
 /// a part of it is known. Then `E exp(-s T) <= 1 - s E T / (1 + s B)`, and the mean of n of them is
 /// below y < E T with a probability of `exp(-n (sqrt(E T) - sqrt(y))^2 / B)` at most.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct IndexTotals {
-    /// What is computed without samples, in lx.
+    /// Illuminance in lx that is computed without samples.
     pub computed_lx: Vec<f64>,
     /// B in lx; infinite where it is not known.
     pub most_lx: Vec<f64>,
@@ -50,12 +50,12 @@ pub struct IndexTotals {
     pub beyond_lx: Vec<f64>,
 }
 
-/// Of what a limit is made.
+/// Figures that a limit is computed from.
 #[derive(Clone, Copy)]
 pub(crate) struct Measured<'r> {
-    /// What each replicate found, what is computed without samples left out, in lx.
+    /// Illuminance in lx that each replicate found, without `computed_lx`.
     pub(crate) replicates_lx: &'r [f64],
-    /// That.
+    /// Illuminance in lx that is computed without samples.
     pub(crate) computed_lx: f64,
     /// B in lx, and the light at most that it does not hold for.
     pub(crate) most_lx: f64,
@@ -81,7 +81,7 @@ impl IndexTotals {
         [computed_lx, most_lx, beyond_lx].iter().all(|row| row.len() == points)
     }
 
-    /// Those of some of its points.
+    /// Totals of some of its points.
     pub(crate) fn part(&self, points: Range<usize>) -> Self {
         Self {
             computed_lx: self.computed_lx[points.clone()].to_vec(),
@@ -105,9 +105,9 @@ impl CertifiedInterval {
     }
 }
 
-/// What one limit may miss with after this many indices, so that those at all checkpoints before
-/// and this one together miss with `miss`: checkpoints are powers of two and a last one between
-/// them.
+/// Probability that one limit may miss with after `samples` indices, so that those at all
+/// checkpoints before and this one together miss with `miss`: checkpoints are powers of two and a
+/// last one between them.
 pub(crate) fn miss_at_a_checkpoint(miss: f64, samples: u64) -> f64 {
     let number = 1.0 + f64::from(samples.max(1).next_power_of_two().trailing_zeros());
     miss / (number * (number + 1.0))

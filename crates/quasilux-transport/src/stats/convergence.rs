@@ -40,13 +40,13 @@ const LATER: usize = 2;
 const EXPECTED_SLOPE: f64 = -0.5;
 /// P: how far slopes of scenes lie from that, a standard deviation.
 const SPREAD_OF_SLOPES: f64 = 0.25;
-/// What is predicted with lies in here.
+/// Exponents that predictions are limited to.
 const SLOPES: std::ops::RangeInclusive<f64> = -1.5..=-0.4;
 
 /// The checkpoints of a run so far.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct History {
-    /// Those that the chain of half-widths goes through.
+    /// Checkpoints that the chain of half-widths goes through.
     checkpoints: Vec<Checkpoint>,
     /// How predictions did.
     outcomes: Outcomes,
@@ -75,7 +75,7 @@ impl TargetWidth {
     }
 }
 
-/// What a checkpoint found.
+/// Estimates of a checkpoint, and how its targets stand.
 #[derive(Clone, Copy)]
 pub(crate) struct Finding<'e> {
     pub(crate) estimates: &'e Estimates,
@@ -89,7 +89,7 @@ struct Checkpoint {
     samples: u64,
     /// exp y: half-widths in units of those at the first checkpoint.
     width: f64,
-    /// What later half-widths were predicted with; `None` before a slope was measured.
+    /// Exponent that later half-widths were predicted with; `None` before a slope was measured.
     exponent: Option<f64>,
 }
 
@@ -291,12 +291,12 @@ mod tests {
         slope: f64,
         scales: [f64; 2],
         done: u64,
-        /// What the bounds on unseen light are with one sample, over what is little enough.
+        /// Bounds on unseen light with one sample, over their tolerance.
         unseen: Option<f64>,
     }
 
     impl MadeUp {
-        /// What is known at the last checkpoint up to `last`.
+        /// Convergence at the last checkpoint up to `last`.
         fn known(&self, last: u64) -> Convergence {
             let settings = Settings { rel_tol: 0.01, ..Settings::default() };
             let (mut history, mut schedule) = (History::default(), Schedule::new(16, None));
@@ -396,7 +396,7 @@ mod tests {
         assert_eq!(first.rays, Some(1024));
     }
 
-    /// What has no half-width says nothing of how half-widths shrink.
+    /// Checkpoints without a half-width say nothing of how half-widths shrink.
     #[test]
     fn the_chain_begins_where_something_is_found() {
         let mut history = History::default();

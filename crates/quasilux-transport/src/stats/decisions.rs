@@ -1,6 +1,6 @@
 //! What is decided before the first sample, by surveys and pilots whose indices no estimate uses.
 
-/// What surveys and pilots decided: a function of scene and settings.
+/// Decisions of surveys and pilots: a function of scene and settings.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Decisions {
     /// Light subpaths of an index, which all sensor points share; `None` of estimators without any.
@@ -13,6 +13,6 @@ pub struct Decisions {
     pub map_elements: Option<u64>,
     /// Photons for each path that look for what paths cannot find, where there is such light.
     pub caustic_photons: Option<u64>,
-    /// SHA-256 of all that was decided, with every number that an estimate hangs on.
+    /// SHA-256 of all that was decided, with every number that an estimate depends on.
     pub digest: [u8; 32],
 }

@@ -29,7 +29,7 @@ pub struct Estimates {
     pub samples: u64,
     /// Rays traced so far, all kinds and replicates together.
     pub rays: u64,
-    /// What was decided before the first of them.
+    /// Decisions made before the first sample.
     #[serde(skip)]
     pub decisions: Decisions,
     /// Where the photons' flux went.
@@ -46,7 +46,7 @@ pub struct Estimates {
     /// Whether every sensor point, or what else was asked for, reached the wanted tolerance, and
     /// every picture what was wanted of it; never with fewer than 128 samples of sensors.
     pub tolerance_reached: bool,
-    /// The same of the sensors alone, once the pictures are taken.
+    /// Whether the sensors alone reached their tolerance, once the pictures are taken.
     #[serde(skip)]
     pub sensors_reached: bool,
     /// How half-widths shrank so far, and what follows from that.
@@ -59,7 +59,7 @@ pub struct Estimates {
     /// Classes of light paths in the scene that the estimator cannot make, such as "lamp, mirror,
     /// point": values are without their light, or have it blurred. Empty where there are none.
     pub cannot_see: Vec<String>,
-    /// What a reader of the results must know.
+    /// Warnings that a reader of the results must know.
     pub caveats: Vec<Caveat>,
 }
 
@@ -82,12 +82,12 @@ pub struct SensorEstimates {
     /// The terms of the Neumann series, by bounces, and the rest; empty where none were to be
     /// listed.
     pub terms: Vec<TermEstimates>,
-    /// What is left open beside the intervals; `None` of estimators without a bound. Points with
-    /// one have sound evidence: it says what may be missing.
+    /// Bounds on light that no sample met; `None` of estimators without a bound. Points with one
+    /// have sound evidence: it says what may be missing.
     pub unseen: Option<UnseenLight>,
 }
 
-/// What light of one number of bounces, or of that many and more, gives to one sensor.
+/// Illuminance by light of one number of bounces, or of that many and more, at one sensor.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TermEstimates {
     /// Illuminance in lx: one row a replicate, one column a sensor point.
@@ -167,13 +167,14 @@ impl Estimates {
 
     /// The interval of an average or another figure that is linear in the values of one sensor, in
     /// lx: `statistic` maps them to it. No half-width where nothing was found at a point, here and
-    /// in the other figures of all points: how much is missing there nobody knows.
+    /// in the other figures of all points: how much is missing there is unknown.
     #[must_use]
     pub fn interval_of(&self, sensor: usize, statistic: impl Fn(&[f64]) -> f64) -> Interval {
         self.where_resolved(sensor, self.found_interval_of(sensor, statistic))
     }
 
-    /// The same of what was found.
+    /// The interval of an average or another linear figure of what was found, with its half-width
+    /// even where nothing was found at a point.
     fn found_interval_of(&self, sensor: usize, statistic: impl Fn(&[f64]) -> f64) -> Interval {
         let rows = &self.sensors[sensor].replicate_lx;
         let figures: Vec<f64> = rows.iter().map(|row| statistic(row)).collect();
@@ -417,7 +418,8 @@ impl Estimates {
         self.unseen_of_extreme(sensor, f64::INFINITY, f64::min)
     }
 
-    /// The same of the largest value.
+    /// How much larger in lx the largest value of one sensor may be by light that no sample met;
+    /// see [`Self::unseen_of_minimum`].
     #[must_use]
     pub fn unseen_of_maximum(&self, sensor: usize) -> Option<f64> {
         self.unseen_of_extreme(sensor, f64::NEG_INFINITY, f64::max)

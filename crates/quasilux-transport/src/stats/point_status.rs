@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// What the samples of a point say of its interval.
+/// Evidence that the samples of a point give for its interval.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Evidence {
     /// Light was found wherever it was looked for, or a bound says what may be missing.

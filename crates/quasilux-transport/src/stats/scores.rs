@@ -22,7 +22,7 @@ use serde::{Deserialize, Serialize};
 const BINS: usize = 128;
 /// Octaves of them below the reference of the quantum.
 const OCTAVES_BELOW: i32 = 40;
-/// What a tail leaves in the spread of the mean matters from this part of the standard error on.
+/// Least spread of the mean by a tail that matters, over the standard error.
 const MATTERS: f64 = 1.0 / 3.0;
 /// Largest relative variance of the variance of scores whose spread can be trusted.
 const MAX_VOV: f64 = 0.1;

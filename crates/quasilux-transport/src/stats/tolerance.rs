@@ -9,7 +9,8 @@ use crate::stats::schedule::MIN_SAMPLES;
 /// Paths or photons, all replicates together, that a point where nothing is found gets before a
 /// run may end without it.
 const MIN_TRIES: f64 = (1 << 14) as f64;
-/// The same where rare and bright light was missed: that more paths will meet it is certain.
+/// Paths or photons, all replicates together, that a point where rare and bright light was missed
+/// gets before a run may end without it: that more paths will meet it is certain.
 const MIN_TRIES_OF_RARE_LIGHT: f64 = (1 << 20) as f64;
 
 /// Relative half-widths of what does not differ between replicates.
@@ -22,12 +23,12 @@ pub(crate) struct Standing {
     /// Half-width over tolerance of what has to reach it: the point, or the average of its sensor.
     /// `None` where there is no half-width, or nothing to reach.
     pub(crate) excess: Vec<Option<f64>>,
-    /// The same of the bound on light that no sample met: 0 where it is not waited for, `None` of
-    /// estimators without one.
+    /// Bound on light that no sample met, over its tolerance: 0 where it is not waited for, `None`
+    /// of estimators without one.
     pub(crate) unseen_excess: Vec<Option<f64>>,
     /// Whether more samples are of no use to a target.
     pub(crate) done: Vec<bool>,
-    /// What each target waits for, its number of samples left aside.
+    /// Status of each target, its number of samples left aside.
     pub(crate) statuses: Vec<PointStatus>,
     /// Points where nothing was found yet.
     pub(crate) unresolved: u64,
@@ -132,8 +133,8 @@ impl Standing {
 }
 
 impl Estimates {
-    /// What the points of each sensor wait for, or that nothing is missing; `None` without a
-    /// tolerance.
+    /// Status of the points of each sensor: what they wait for, or that nothing is missing; `None`
+    /// without a tolerance.
     #[must_use]
     pub fn point_statuses(&self, settings: &Settings) -> Option<Vec<Vec<PointStatus>>> {
         let standing = Standing::new(self, settings);
@@ -148,7 +149,7 @@ impl Estimates {
     }
 }
 
-/// What targets are measured by at a checkpoint.
+/// Criteria for targets at a checkpoint.
 struct Yardstick<'s> {
     settings: &'s Settings,
     /// Whether there is a tolerance that can be reached.

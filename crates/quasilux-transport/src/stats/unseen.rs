@@ -11,21 +11,21 @@ use std::ops::Range;
 /// Confidence of the bounds on unseen light: 1 - d.
 pub const UNSEEN_CONFIDENCE: f64 = 0.95;
 
-/// What the samples of one sensor leave open: bounds on light that may come by ways on which no
-/// sample lay.
+/// Bounds on light at one sensor that may come by ways on which no sample lay.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct UnseenLight {
     /// At each point, the illuminance in lx at most that may come by ways on which no sample lay,
     /// with [`UNSEEN_CONFIDENCE`]; never negative, infinite where nothing is known.
     pub point_lx: Vec<f64>,
-    /// The same of the average over all points, in lx: never more than the mean of `point_lx`.
+    /// Illuminance in lx at most, in the average over all points, that may come by ways on which no
+    /// sample lay, with [`UNSEEN_CONFIDENCE`]: never more than the mean of `point_lx`.
     pub average_lx: f64,
     /// The part of each value that photons on the disc around the point brought, in lx: it is known
     /// as a mean over that disc.
     pub merged_lx: Vec<f64>,
     /// Radius of that disc in m; `None` for cells, and where there is none.
     pub disc_radius_m: Vec<Option<f64>>,
-    /// What certified intervals are made of, where they were asked for.
+    /// Bounds that certified intervals are made of, where they were asked for.
     pub totals: Option<IndexTotals>,
 }
 

@@ -73,7 +73,7 @@ impl Run {
         Estimates { sensors: vec![sensor], samples, miss_probability, ..Estimates::default() }
     }
 
-    /// What a run reports whose points end as they are known well enough.
+    /// Last estimates of a run whose points end as they are known well enough.
     fn end(mut self) -> Estimates {
         let settings = Settings { rel_tol: 0.1, ..Settings::default() };
         let miss_probability = miss_probability_of_a_look(0.05, REPLICATES as u32);
