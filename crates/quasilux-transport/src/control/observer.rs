@@ -11,7 +11,7 @@ pub enum Control {
     Stop,
 }
 
-/// What a running simulation says between checkpoints.
+/// Progress of a running simulation between checkpoints.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
     /// Photons traced so far.
@@ -35,8 +35,8 @@ pub struct Progress {
     /// Share in [0, 1] of the expected work that is done, `None` while nothing is known; where a
     /// picture is taken, of the work at it.
     pub done: Option<f64>,
-    /// The same of the work up to the first checkpoint, before which no value is known; `None`
-    /// while surveys and pilots run, and past it.
+    /// Share in [0, 1] that is done of the work up to the first checkpoint, before which no value
+    /// is known; `None` while surveys and pilots run, and past it.
     pub done_of_first: Option<f64>,
     /// The picture that is taken, once the sensors are done.
     pub picture: Option<PictureProgress>,
@@ -49,16 +49,16 @@ pub struct PictureProgress {
     pub camera: usize,
     /// Paths of each pixel in each replicate in the pass that is made.
     pub samples: u64,
-    /// The same in the last complete pass; 0 before the first.
+    /// Paths of each pixel in each replicate in the last complete pass; 0 before the first.
     pub complete_samples: u64,
     /// How well that one knows the picture ([`crate::CameraEstimates::relative_half_width`]).
     pub relative_half_width: Option<f64>,
-    /// What is wanted of it; `None` where a number of paths is.
+    /// Relative half-width that is wanted of it; `None` where a number of paths is.
     pub rel_tol: Option<f64>,
 }
 
-/// What the sensors show at a moment between two checkpoints: a look at the tallies as they are. It
-/// disturbs nothing, has no interval, and is no result.
+/// Illuminances of the sensors at a moment between two checkpoints: the tallies as they are. Taking
+/// one disturbs nothing; it has no interval, and is no result.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Snapshot {
     /// Illuminance in lx, one row a sensor, one column a sensor point; `None` where nothing is

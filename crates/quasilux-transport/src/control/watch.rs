@@ -25,7 +25,7 @@ pub(crate) struct Watch<'o> {
     max_rays: u64,
     /// Photons or paths between states that the observer may want.
     piece: Option<u64>,
-    /// What a state begins with: all that does not change before the next checkpoint.
+    /// First bytes of all states: everything that does not change before the next checkpoint.
     preface: Vec<u8>,
     /// Whether it may stop the run now.
     obeys: bool,
@@ -93,7 +93,7 @@ impl<'o> Watch<'o> {
         Self { workers: Some(workers), ..self }
     }
 
-    /// What workers must have decided before the first sample, too.
+    /// Sets the digest of the decisions that workers must have made, too, before the first sample.
     pub(crate) fn expect_decisions(&mut self, digest: [u8; 32]) {
         self.decisions = digest;
     }
@@ -103,7 +103,7 @@ impl<'o> Watch<'o> {
         self.failed
     }
 
-    /// Blocks of `work`; `None` where there is nobody to trace them, or little of it.
+    /// Blocks of `work`; `None` where there are no workers, or little of it.
     pub(crate) fn blocks<T: Serialize>(
         &self,
         frame: impl FnOnce() -> T,
@@ -176,7 +176,7 @@ impl<'o> Watch<'o> {
         split(work, length)
     }
 
-    /// What states begin with from here on.
+    /// Sets the first bytes of all states from here on.
     pub(crate) fn preface(&mut self, put: impl FnOnce(&mut Writer)) {
         if self.piece.is_some() {
             let mut out = Writer::default();

@@ -27,14 +27,14 @@ pub trait Workers {
     }
 }
 
-/// What workers hand over.
+/// Message from workers.
 #[derive(Clone, Copy, Debug)]
 pub enum Received<'b> {
     /// The bytes that came of a block, by its number.
     Block {
         /// Its number among those that were asked for.
         number: usize,
-        /// What [`crate::BlockTracer::trace`] gave.
+        /// Result of [`crate::BlockTracer::trace`].
         bytes: &'b [u8],
     },
     /// Nothing yet: a sign of life, about once a second.
@@ -62,7 +62,7 @@ const MAX_PATHS: u64 = 1 << 22;
 /// run begins with, all would wait for the last block of the slowest.
 const FEW: u64 = 32;
 
-/// Blocks get shorter as work runs out, so that nobody waits for long for the last one: C. D.
+/// Blocks get shorter as work runs out, so that no worker waits for long for the last one: C. D.
 /// Polychronopoulos and D. J. Kuck, "Guided self-scheduling" (IEEE Trans. Comput. C-36, 1987). Each
 /// is a part of what is left that leaves work for many workers, but not shorter than several of the
 /// smallest ones while two workers have enough.
