@@ -61,7 +61,7 @@ impl Copies {
         Self { regions, by_cell, rays: survey.rays }
     }
 
-    /// Those that leave a place.
+    /// Mean number of copies of a light subpath that leave a place, were nothing absorbed.
     pub(crate) fn at(&self, at: &Interaction) -> f64 {
         let number = self.regions.as_ref().and_then(|it| it.number(at.position, at.n));
         number.map_or(1.0, |number| self.by_cell[number])

@@ -54,7 +54,7 @@ pub(crate) struct Guided {
     pub(crate) density: f64,
 }
 
-/// What is left of an edge of the square, and a point of it.
+/// Part of an edge of the square that is left, and a point of it.
 #[derive(Clone, Copy)]
 struct Stretch {
     corner: f64,

@@ -41,7 +41,7 @@ pub(crate) const WORTHWHILE: f64 = 8.0;
 /// Times that far cells are connected on a closer look, each time chosen by what was learnt before.
 const LOOKS: u32 = 2;
 
-/// What comes of the survey.
+/// Result of the survey.
 #[derive(Default)]
 pub(crate) struct Plan {
     /// `None` where photons are left alone.

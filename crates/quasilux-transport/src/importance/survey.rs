@@ -44,7 +44,8 @@ const PLACES: usize = 8;
 /// Specular surfaces that a ray passes before it is given up.
 const MAX_PASSED: u32 = 16;
 
-/// What is known of cells that light or sensors reach, numbered in the order of their discovery.
+/// Cells that light or sensors reach, numbered in the order of their discovery, and what lands in
+/// them.
 pub(crate) struct Survey {
     pub(crate) cells: Cells,
     /// Number of each cell, [`Regions::UNKNOWN`] for none.
@@ -53,7 +54,7 @@ pub(crate) struct Survey {
     pub(crate) sensors: Vec<Surveyed>,
     /// Stride of the surveyed sensors in all targets.
     pub(crate) sensor_step: usize,
-    /// What lands first in each known cell.
+    /// Photons that land in each known cell before any other.
     pub(crate) first_landings: Vec<FirstLandings>,
     pub(crate) rays: u64,
     /// Rays sent on from cells.
@@ -88,9 +89,9 @@ impl SurveyCell {
 pub(crate) struct Transition {
     /// Number of the cell.
     pub(crate) cell: u32,
-    /// The part of all rays that it stands for; while it is kept, the rays.
+    /// The part of all rays that it stands for; in [`SurveyCell`], their number.
     pub(crate) share: f64,
-    /// What specular surfaces on the way let through.
+    /// Throughput of the specular surfaces on the way.
     pub(crate) weight: f64,
     /// The share of the light that goes to a square metre there, in m^-2, where a connection may
     /// find it too; 0 elsewhere.
@@ -132,7 +133,7 @@ struct DiffuseHit {
     is_straight: bool,
 }
 
-/// What became of a ray that may have passed specular surfaces.
+/// End of a ray that may have passed specular surfaces.
 struct Flown {
     /// See [`Transition`].
     u: [f32; 2],

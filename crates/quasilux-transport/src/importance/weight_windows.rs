@@ -64,7 +64,7 @@ impl WeightWindows {
         libm::ldexp(1.0, libm::ilogb(least))
     }
 
-    /// What is known of a place; `None` where the survey found nothing.
+    /// The window at a place; `None` where the survey found nothing.
     pub(crate) fn at(&self, at: &Interaction) -> Option<&Window> {
         self.windows.get(self.regions.number(at.position, at.n)?)
     }
@@ -139,7 +139,7 @@ impl Split {
     }
 }
 
-/// What the survey says of each known cell.
+/// Weight windows of the known cells, by importance.
 fn importance_windows(survey: &Survey, solution: &FluxAndImportance) -> Vec<Window> {
     let guides = guides(survey, solution);
     let weights = importance_weights(survey, solution, &guides, |first| first.flux);
