@@ -50,8 +50,8 @@ pub(crate) fn trace_photons<S: Spectrum, R: PhotonReceiver<S>>(
     trace_photons_with_snapshots(context, batch, receiver, |_| None, watch)
 }
 
-/// The same, where `look` gives the sensors' values between rounds, by the number of emitted
-/// photons.
+/// Traces photons as [`trace_photons`] does, where `look` gives the sensors' values between rounds,
+/// by the number of emitted photons.
 pub(crate) fn trace_photons_with_snapshots<S: Spectrum, R: PhotonReceiver<S>>(
     context: &Context<'_, S>,
     batch: &PhotonBatch<'_>,

@@ -161,7 +161,7 @@ impl<S: Spectrum> CausticMap<S> {
         }
     }
 
-    /// Takes that in.
+    /// Takes in what [`Self::put_targets`] put out.
     pub(crate) fn take_targets(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
         from.add_count(&mut self.photons)?;
         from.add_count(&mut self.invalid)?;
@@ -188,7 +188,7 @@ impl<S: Spectrum> CausticMap<S> {
         Some(CausticLookup { layout: &self.layout, map })
     }
 
-    /// What a target gets in one replicate, in lx.
+    /// Illuminance of a target in one replicate, in lx.
     pub(crate) fn target_lx(&self, replicate: usize, target: usize) -> f64 {
         let terms = self.tallies[replicate].targets.iter();
         let quanta: i64 = terms.map(|counts| counts[target].load(Ordering::Relaxed)).sum();

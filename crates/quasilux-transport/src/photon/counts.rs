@@ -16,10 +16,10 @@ pub(crate) struct PhotonCounts {
     /// Photons that began, until those from lit places are [taken out](Self::apart_from_flux):
     /// those that left lights.
     pub(crate) emitted: u64,
-    /// Those from lit places too; what splitting added is not among them.
+    /// Photons that began, those from lit places too, without those that splitting added.
     pub(crate) begun: u64,
-    /// What those that left lights carried less than a photon of all lights does: none of it where
-    /// only lamps shine.
+    /// Quanta by which photons that left lights fell short of those of a photon of all lights: none
+    /// where only lamps shine.
     pub(crate) withheld: i64,
     /// Absorbed, less what splitting added.
     pub(crate) absorbed: i64,
@@ -28,7 +28,7 @@ pub(crate) struct PhotonCounts {
     pub(crate) cut: i64,
     /// Photons cut because they would not [end](crate::cutoff).
     pub(crate) endless: u64,
-    /// The same of photons that are not in the balance of the flux.
+    /// Photons cut because they would not end, of those that are not in the balance of the flux.
     pub(crate) trapped: u64,
     /// Photons, and contributions of photons to receivers, that were refused: not finite, negative
     /// or too large to be counted.
@@ -42,7 +42,8 @@ pub(crate) struct PhotonCounts {
 }
 
 impl PhotonCounts {
-    /// What they cost, without where their flux went: those from lit cells do not carry all of it.
+    /// Counts of the work alone, without the balance of the flux: photons from lit cells do not
+    /// carry all of it.
     pub(crate) fn apart_from_flux(self) -> Self {
         let trapped = self.trapped + self.endless;
         let Self { begun, invalid, rays, events, dimensions, .. } = self;
@@ -66,7 +67,7 @@ impl PhotonCounts {
         }
     }
 
-    /// What a reader of the results must know of them.
+    /// Caveat of terminated photons, if there are any.
     pub(crate) fn caveat(&self) -> Option<Caveat> {
         Caveat::of_photons(self.endless + self.trapped)
     }

@@ -19,7 +19,8 @@ pub(crate) struct SeenPhoton<S> {
 
 /// Sensors and maps that see photons on their way.
 pub(crate) trait PhotonReceiver<S> {
-    /// Whether photons end where [`LightPathClass::Found`] begins: nobody looks at them further.
+    /// Whether photons end where [`LightPathClass::Found`] begins: the receiver needs them no
+    /// further.
     const SPECULAR_ONLY: bool = false;
 
     /// Announces the photon with this sampler, until the next call.

@@ -70,7 +70,7 @@ impl<'s> Source<'s> {
         lit_cells.map_or(Source::Lights, Source::LitCells)
     }
 
-    /// What most photons from here weigh, rounded down to a power of two.
+    /// Weight of most photons from here, rounded down to a power of two.
     pub(crate) fn usual_weight(self) -> f64 {
         match self {
             Self::Lights => 1.0,
@@ -78,7 +78,7 @@ impl<'s> Source<'s> {
         }
     }
 
-    /// What photons from here count: their flux only where it is all that the lights emit.
+    /// Counts of photons from here: with their flux only where it is all that the lights emit.
     pub(crate) fn counted(self, counts: PhotonCounts) -> PhotonCounts {
         match self {
             Self::Lights => counts,
@@ -345,7 +345,7 @@ impl<'p, S: Spectrum> Photon<'p, S> {
     }
 }
 
-/// Lets a photon go that leaves a surface, unless it is invalid or nobody looks at it further.
+/// Emits the scattered photon unless it is invalid or no receiver needs it.
 fn depart_valid<'p, S: Spectrum>(
     photon: Photon<'p, S>,
     start: Emission,

@@ -34,7 +34,7 @@ pub(crate) struct PhotonWave<'p, S> {
     photons: Vec<Photon<'p, S>>,
     /// The ray of each photon.
     queries: Vec<RayQuery>,
-    /// Those that have scattered.
+    /// Photons that have scattered, and their rays.
     departed: (Vec<Photon<'p, S>>, Vec<RayQuery>),
     waiting: Vec<Waiting<'p, S>>,
     hits: Vec<Option<Hit>>,

@@ -49,15 +49,16 @@ pub(super) struct Beam<'s, 'a, S> {
     all_lm: f64,
 }
 
-/// A cell, and what lands at its corners.
+/// A cell, and the light that goes on at its corners.
 pub(super) struct LitCell {
     pub(super) cell: SubTriangle,
     pub(super) facet: u32,
     pub(super) light: u32,
     pub(super) front: bool,
-    /// What goes on there in lm/m^2: illuminance times albedo.
+    /// Illuminance times albedo there, in lm/m^2.
     pub(super) seen: [f64; 3],
-    /// The same if nothing stood in the way, and if no beam were narrow.
+    /// Illuminance times albedo there, in lm/m^2, if nothing stood in the way, and if no beam were
+    /// narrow.
     pub(super) open: [f64; 3],
     pub(super) area_m2: f64,
 }
@@ -69,7 +70,7 @@ pub(super) struct LitFacet {
     pub(super) rays: u64,
 }
 
-/// What a probe at a place found, in lm/m^2 that go on.
+/// Light that goes on at a probed place, in lm/m^2; see [`LitCell`].
 #[derive(Clone, Copy, Default)]
 struct Probe {
     seen: f64,

@@ -69,7 +69,7 @@ struct DrawnCell {
     density: [f64; 3],
 }
 
-/// What a photon is to start from.
+/// Start that was drawn for a photon.
 pub(crate) enum Drawn {
     /// A lit place, if light reaches it.
     Place(LitPlace),

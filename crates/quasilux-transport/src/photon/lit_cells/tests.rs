@@ -266,7 +266,7 @@ fn weights_are_nearly_equal() {
     }
 }
 
-/// What landed, in quanta, and what it cost.
+/// Quanta that landed on each facet, and the counts of the photons.
 fn traced(scene: &Scene, order: PhotonOrder, threads: usize) -> (Vec<u64>, PhotonCounts) {
     struct Quanta<'a>(&'a Mutex<Vec<u64>>);
     impl PhotonReceiver<f64> for Quanta<'_> {

@@ -6,9 +6,9 @@ use crate::spectrum::Spectrum;
 use crate::world::subdivision::{InCell, locate_in_grid, locate_in_quarters};
 use crate::world::{Facet, Interaction, World};
 
-/// Elements a metre of scene size get where nothing is asked for.
+/// Elements along the scene's largest extent where no size is asked for.
 pub(crate) const ELEMENTS_ACROSS: f64 = 64.0;
-/// The same where pilot photons decide which of them are split.
+/// Elements along the scene's largest extent where pilot photons decide which of them are split.
 pub(crate) const COARSE_ELEMENTS_ACROSS: f64 = 16.0;
 /// Marks what is split in a tree.
 const SPLIT: u32 = 1 << 31;
@@ -61,7 +61,7 @@ impl MapLayout {
         Self::regular(world, ELEMENTS_ACROSS, settings)
     }
 
-    /// The same with a larger default, for those that are split where there is need.
+    /// Elements with a larger default, which are split where there is need.
     pub(super) fn coarse<S: Spectrum>(world: &World<S>, settings: &Settings) -> Self {
         Self::regular(world, COARSE_ELEMENTS_ACROSS, settings)
     }
@@ -116,7 +116,7 @@ impl MapLayout {
         out.value(&(*leaves as u64));
     }
 
-    /// What photons say about an element.
+    /// Reconstruction of the illuminance in an element.
     pub(crate) fn reconstruction(&self) -> Reconstruction {
         self.reconstruction
     }

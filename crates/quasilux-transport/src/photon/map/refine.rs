@@ -145,9 +145,9 @@ fn chosen(layout: &MapLayout, parts: &Blocks, affordable: usize) -> Vec<usize> {
 struct Misfit {
     /// For linear functions: centres of the parts, from the centre of all.
     centres: Option<[[f64; 3]; PARTS]>,
-    /// What chi-square exceeds by chance once in a thousand elements.
+    /// Chi-square that is exceeded by chance once in a thousand elements.
     critical: f64,
-    /// What it is by chance on average.
+    /// Mean of chi-square by chance: its degrees of freedom.
     freedom: f64,
 }
 
