@@ -4,7 +4,7 @@
 use crate::path::daylight::FromOutside;
 use crate::spectrum::Spectrum;
 
-/// What one path found: illuminance in lx or luminance in cd/m^2, as its start wants.
+/// Light that one path found: illuminance in lx or luminance in cd/m^2, as its start wants.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct PathContribution<S> {
     /// Straight from the lights; of the point-like ones only where the start asks for it.
@@ -17,7 +17,7 @@ pub(crate) struct PathContribution<S> {
     pub(crate) reflected: bool,
     /// Whether it was cut on its way.
     pub(crate) endless: bool,
-    /// What came from outside, where that is kept apart by direction; not in the sums above.
+    /// Light from outside, where that is kept apart by direction; not in the sums above.
     pub(crate) from_outside: Vec<FromOutside>,
 }
 

@@ -10,7 +10,7 @@ use std::collections::VecDeque;
 pub(crate) enum OutsideSource {
     /// Sky or ground in this direction.
     Outside(DVec3),
-    /// The same past mirrors, where nobody can ask for the sun.
+    /// Sky or ground in this direction past mirrors, where no vertex can ask for the sun.
     Mirrored(DVec3),
     /// One of the suns, asked for at a place.
     Sun(u32, SunPlace),
@@ -27,13 +27,13 @@ pub(crate) enum LastReflection {
     Within,
 }
 
-/// What a path found.
+/// Light from outside that a path found.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FromOutside {
     pub(crate) whence: OutsideSource,
     pub(crate) reflection: LastReflection,
-    /// What its start gets in lx of 1 cd/m2 there, or of a sun of 1 lx; of what shines there where
-    /// the scene has its own sky.
+    /// Light in lx at its start for 1 cd/m2 there, or for a sun of 1 lx; for what shines there
+    /// where the scene has its own sky.
     pub(crate) light: f64,
 }
 
@@ -52,7 +52,8 @@ pub(crate) struct Daylight<'p> {
     /// Whether it has passed an opening.
     is_beyond: bool,
     reflection: LastReflection,
-    /// What it asked for and has not heard of, in order: where from, and the first reflection.
+    /// Requests for light that are not answered yet, in their order: the source, and the first
+    /// reflection.
     asked: VecDeque<Asked>,
 }
 
@@ -92,7 +93,7 @@ impl<'p> Daylight<'p> {
         self.search.only_from_beyond && self.after_reflection() == LastReflection::Within
     }
 
-    /// What it finds where it leaves the scene.
+    /// Light from outside that it finds where it leaves the scene.
     pub(crate) fn found(&self, whence: OutsideSource, light: f64) -> FromOutside {
         FromOutside { whence, reflection: self.reflection, light }
     }
@@ -103,7 +104,8 @@ impl<'p> Daylight<'p> {
         self.asked.push_back(Asked { whence, reflection });
     }
 
-    /// What the next answer is about: one of no light tells where no sun shines.
+    /// Light of the oldest request that is not answered yet. Blocked light is 0 while it is learnt
+    /// where the suns shine, else `None`.
     pub(crate) fn answered(&mut self, light: Option<f64>) -> Option<FromOutside> {
         let Asked { whence, reflection } = self.asked.pop_front()?;
         let light = light.or(self.search.suns.is_learning().then_some(0.0));

@@ -20,7 +20,7 @@ use std::ops::Range;
 /// Photons that only balance the flux, where the estimator needs none.
 const BALANCE_PHOTONS: u64 = 1 << 12;
 
-/// What the paths end on.
+/// Maps that paths end on, if any.
 pub(crate) enum PathEnd<S> {
     Nothing,
     Maps(Box<OwnMaps<S>>),
@@ -36,7 +36,7 @@ pub(crate) struct OwnMaps<S> {
     photons_per_path: u64,
     /// Where photons leave from instead of the point-like lights.
     lit_cells: Option<LitCells>,
-    /// What guides their photons.
+    /// Weight windows and guides of their photons.
     windows: Option<WeightWindows>,
 }
 
@@ -51,7 +51,7 @@ pub(crate) struct MapFacts {
     pub(crate) uses_importance: bool,
 }
 
-/// What the paths end on, and the photons that were traced for it.
+/// The end of the paths, and the photons that were traced for it.
 pub(crate) struct Prepared<S> {
     pub(crate) end: PathEnd<S>,
     pub(crate) counts: PhotonCounts,
@@ -97,7 +97,8 @@ impl<S: Spectrum> PathEnd<S> {
 }
 
 impl<S: Spectrum> PathEnd<S> {
-    /// What paths of these settings end on; traces the photons that say where the flux goes.
+    /// Prepares the end of paths of these settings; traces the photons that say where the flux
+    /// goes.
     pub(crate) fn prepare(
         context: &Context<'_, S>,
         settings: &Settings,
@@ -146,7 +147,7 @@ impl<S: Spectrum> PathEnd<S> {
         }
     }
 
-    /// What there is to know of it.
+    /// Facts about it, for reports.
     pub(crate) fn facts(&self) -> MapFacts {
         match self {
             Self::Nothing => MapFacts::default(),

@@ -18,7 +18,7 @@ use quasilux_sampling::{DimensionHistogram, PointSet, Sampler};
 use serde::{Deserialize, Serialize};
 use std::ops::{AddAssign, Range};
 
-/// What the paths of one target in one replicate found, in all.
+/// Sums over all paths of one target in one replicate.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct PathSums {
     pub(crate) direct: Sum,
@@ -29,7 +29,7 @@ pub(crate) struct PathSums {
     pub(crate) reflected: u64,
 }
 
-/// What paths cost.
+/// Counts of work done for paths.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct WorkCounts {
     pub(crate) paths: u64,
@@ -50,13 +50,13 @@ pub(crate) struct PathBatch<'g, S> {
     pub(crate) indices: Range<u64>,
 }
 
-/// What the paths of neighbouring batches found.
+/// Results of the paths of neighbouring batches.
 pub(crate) struct Piece {
     /// Number of the first batch.
     pub(crate) first: usize,
     /// Of each batch.
     pub(crate) sums: Vec<PathSums>,
-    /// The same, by single paths.
+    /// Counts of single paths of each batch by their value.
     pub(crate) scores: Vec<Scores>,
     pub(crate) work: WorkCounts,
 }

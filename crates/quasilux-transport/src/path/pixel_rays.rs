@@ -8,7 +8,7 @@ use quasilux_sampling::{PointSet, Sampler};
 use quasilux_scene::View;
 use std::ops::Range;
 
-/// Those of one camera.
+/// Rays through the pixels of one camera.
 pub(crate) struct PixelRays {
     /// Number of the camera.
     pub(crate) camera: u32,

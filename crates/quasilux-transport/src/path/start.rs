@@ -27,7 +27,7 @@ pub(crate) struct PathMaps<'p, S> {
     pub(crate) caustics: Option<CausticLookup<'p, S>>,
 }
 
-/// What a path is to find.
+/// Quantity that a path measures.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Measurement {
     /// The illuminance on the side `n`.

@@ -21,7 +21,7 @@
 //! the weights of a way still sum up to one. A connection that is chosen counts the sum of those
 //! that it stands for, each bounded as above: at most as many as its light subpath has vertices.
 
-/// What the techniques that leave vertices of a subpath to the other one weigh.
+/// Weights of the techniques that leave vertices of a subpath to the other one.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct SubpathWeights {
     /// Of the technique that leaves this vertex alone, in m^2 once the vertex is reached.
@@ -71,7 +71,8 @@ impl SubpathWeights {
         Self::new(1.0 / pdf_sr, cos / pdf_sr * self.towards(reverse_pdf_sr))
     }
 
-    /// The same of an eye path at a vertex that this many copies of light subpaths leave.
+    /// After a direction at this cosine was drawn by an eye path, at a vertex that this many copies
+    /// of light subpaths leave; see [`Self::scattered`].
     pub(crate) fn scattered_where_copied(
         self,
         cos: f64,
@@ -267,7 +268,7 @@ mod tests {
             self.copies[at] / self.copies[at + 1]
         }
 
-        /// What paths carry by way of these places.
+        /// Weights of a subpath along these places.
         fn carried(&self, start: SubpathWeights, nodes: &[usize]) -> SubpathWeights {
             let arrive = |weights: SubpathWeights, a: usize, b: usize| {
                 weights.arrived(self.distance_m(a, b), self.cos(b, a))

@@ -93,7 +93,7 @@ struct PathLight<S> {
     found: PathContribution<S>,
 }
 
-/// What the paths that travel together ask of the lights, with working space.
+/// Requests for light of the paths that travel together, with working space.
 #[derive(Default)]
 pub(crate) struct PathWork<S> {
     pub(crate) shadows: ShadowQueue<S>,
@@ -199,7 +199,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
         self.from.query(self.direction)
     }
 
-    /// What became of light that the path asked for.
+    /// Takes the outcome of a request for light.
     pub(crate) fn on_visibility(&mut self, answer: &Answer<S>) {
         if let Some(daylight) = &mut self.daylight {
             let light = answer.bounces.map(|_| answer.light.luminance());
@@ -227,7 +227,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
         }
     }
 
-    /// What happens where the ray after `bounces` reflections ends, on a surface or nowhere;
+    /// Handles the end of the ray after `bounces` reflections, on a surface or nowhere; returns
     /// whether the path goes on. All that it asked for before must have arrived.
     pub(crate) fn arrive(
         &mut self,
@@ -322,7 +322,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
         true
     }
 
-    /// What it found, once. All that it asked for must have arrived.
+    /// Takes the result of the path, once. All that it asked for must have arrived.
     pub(crate) fn end(&mut self) -> PathResult<S> {
         self.add_arrived();
         self.light.found.add(0, self.light.pointlikes);
@@ -334,7 +334,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
         self.light.found.endless = true;
     }
 
-    /// What a lux at a diffuse surface that it meets counts at its start.
+    /// Weight, at its start, of each lux at a diffuse surface that it meets.
     fn weight(&self, context: &Context<'_, S>, at: &Interaction) -> S {
         let surface = Surface::new(&context.world, at, self.direction);
         Vertex::on(&context.world, at, &surface, self.beta.all).weight(at.n)

@@ -13,8 +13,8 @@ use crate::world::visibility::{Answer, LightRequest};
 use quasilux_bvh::{Hit, RayQuery};
 use std::mem::take;
 
-/// This many paths should travel together: the kernel has rays enough, and what they need fits into
-/// a cache of half a megabyte.
+/// Number of paths that should travel together: the kernel has rays enough, and what they need fits
+/// into a cache of half a megabyte.
 pub(crate) const WAVE: u64 = 512;
 
 /// Working space of paths that travel together, used again for the next ones.

@@ -80,7 +80,7 @@ impl<S: Spectrum> Path<'_, S> {
         self.last.asked_from.map_or(0.0, |place| emitters.pdf_m2(&context.world, place, asked))
     }
 
-    /// The same of the area lights as mirrors show them.
+    /// Asks for the light of one point on the mirror images of the area lights.
     pub(super) fn sample_direct_emitter_images(
         &mut self,
         context: &Context<'_, S>,

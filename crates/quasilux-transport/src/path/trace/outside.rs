@@ -74,8 +74,8 @@ impl AskedOutside {
 /// directions find little where openings are small. All others lose no more than this share, and
 /// no contribution grows by more than a ninth.
 const SHARE_THROUGH_OPENINGS: f64 = 0.1;
-/// The same where paths seek nothing but what is beyond openings: the most, for they may be others
-/// than those that are known.
+/// Share of paths that leave their start through the openings where they seek nothing but what is
+/// beyond them: the most, for they may be others than those that are known.
 const SHARE_OF_SEARCH: f64 = 0.75;
 
 /// The share of paths with that search that leave their start through openings.
@@ -243,8 +243,8 @@ impl<S: Spectrum> Path<'_, S> {
         self.light.found.add(bounces, light);
     }
 
-    /// What the path takes to a surface: where it has ended on a map, light from outside past panes
-    /// alone.
+    /// Throughput of the path to a surface: where it has ended on a map, of light from outside past
+    /// panes alone.
     pub(super) fn carried(&self, bsdf: &Bsdf<S>) -> S {
         let has_ended = self.beta.all.max_channel() == 0.0 && is_pane(bsdf);
         if has_ended { self.beta.outside.past_panes } else { self.beta.all }

@@ -41,7 +41,7 @@ impl SpecularWay {
     }
 
     /// After one more specular surface, which mirrored it or let it straight through; `None` where
-    /// it did neither, or where nobody asks for light by mirrors and panes in turn.
+    /// it did neither, or where light by mirrors and panes in turn is not asked for.
     fn past<S: Spectrum>(
         self,
         context: &Context<'_, S>,
