@@ -34,7 +34,8 @@ pub(super) struct Meshes {
     sun_of_node: Vec<Option<u32>>,
     /// One over the solid angle of each place, in sr^-1.
     per_sr: Vec<f64>,
-    /// What stands for values at the nodes of the two.
+    /// Sums over nodes nearby that stand for the value at each node of the sky, and of the sun's
+    /// mesh.
     pub(super) sharpened_sky: Vec<Vec<Share>>,
     sharpened_suns: Vec<Vec<Share>>,
 }
@@ -64,7 +65,7 @@ pub(super) struct Coefficients {
 }
 
 impl Meshes {
-    /// Those of a replicate, for the sun in these directions.
+    /// Meshes of a replicate, for the sun in these directions.
     pub(super) fn new<S: Spectrum>(
         context: &Context<'_, S>,
         replicate: u32,

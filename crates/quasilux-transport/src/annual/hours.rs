@@ -107,7 +107,7 @@ impl HourTable {
     }
 }
 
-/// What points have of a node of the sky, or of the ground.
+/// Coefficients of points for a node of the sky, or for the ground.
 struct Row {
     number: usize,
     coefficients: [f32; POINTS],

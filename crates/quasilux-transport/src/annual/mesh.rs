@@ -97,7 +97,7 @@ impl Mesh {
         [times(a, 1.0 - part), times(b, 1.0 - part), times(c, part), times(d, part)]
     }
 
-    /// What stands for the value at each node: a sum over values at nodes nearby.
+    /// Sums over values at nodes nearby that stand for the value at each node.
     pub(super) fn sharpened(&self) -> Vec<Vec<Share>> {
         let of_ring = |(number, ring): (usize, &Ring)| {
             (0..ring.nodes).map(move |node| self.sharpened_node(number, node)).collect::<Vec<_>>()
@@ -195,7 +195,7 @@ mod tests {
         }
     }
 
-    /// What is linear in altitude alone is interpolated exactly; anything smooth nearly.
+    /// Functions that are linear in altitude alone are interpolated exactly, smooth ones nearly.
     #[test]
     fn smooth_functions_are_interpolated() {
         let mesh = Mesh::new(Spacing { usual: 0.1, at_horizon: 0.03 }, [0.4, 0.7]);

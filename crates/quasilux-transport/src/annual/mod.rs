@@ -8,8 +8,8 @@
 //! its interval.
 //!
 //! Points are simulated block by block (`state`), and a block is over before the next begins
-//! (`year`): nobody holds the hours of all points. Blinds make other rooms of a room, each of which
-//! has its hours; when they close, the sun on the points may decide (`sunlit`).
+//! (`year`): the hours of all points are never held at once. Blinds make other rooms of a room,
+//! each of which has its hours; when they close, the sun on the points may decide (`sunlit`).
 
 mod coefficients;
 mod hours;

@@ -9,7 +9,7 @@ use crate::sensors::Target;
 use crate::spectrum::Spectrum;
 use rayon::prelude::*;
 
-/// This many points, each with this many paths, say where the sun shines.
+/// Points, each with [`PILOT_PATHS`] paths, that find out where the sun shines.
 const PILOT_POINTS: usize = 64;
 const PILOT_PATHS: u64 = 64;
 

@@ -4,14 +4,15 @@ use crate::settings::Settings;
 use crate::stats::interval::{Interval, t_quantile_for};
 use crate::stats::sequential::Stopping;
 
-/// What the hours of one sensor point are, in all replicates.
+/// Illuminances of one sensor point by the hour, in all replicates.
 #[derive(Clone, Debug)]
 pub struct PointOfYear {
     /// The number of the point, through all sensors.
     pub number: usize,
     /// Illuminances in lx by replicate and hour, in the order of the hours that were given.
     pub illuminance_lx: Vec<Vec<f32>>,
-    /// What comes straight from the sun while blinds are open, whether they are or not.
+    /// Illuminances in lx straight from the sun with the blinds open, whether they are or not, by
+    /// replicate and hour.
     pub sun_lx: Vec<Vec<f32>>,
     /// Skylight in lx, hour by hour, that may come by ways on which no path lay, at most, with
     /// [`UNSEEN_CONFIDENCE`](crate::unseen::UNSEEN_CONFIDENCE).
@@ -37,11 +38,11 @@ pub struct YearProgress {
     pub over: usize,
     /// Up to which number they are simulated.
     pub of: usize,
-    /// What it took so far.
+    /// Work so far.
     pub work: YearWork,
 }
 
-/// What a run took.
+/// Counts of the work of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct YearWork {
     /// Rays of all kinds.

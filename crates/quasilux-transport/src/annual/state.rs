@@ -23,7 +23,7 @@ use quasilux_sky::{TabulatedSky, WeatherSky};
 use rayon::prelude::*;
 use std::borrow::Borrow;
 
-/// Paths of each point in each replicate at most where nobody says.
+/// Paths of each point in each replicate at most where no limit is set.
 const MOST: u64 = 1 << 16;
 /// Paths between two questions whether to go on.
 const AT_ONCE: u64 = 1 << 12;
@@ -45,7 +45,7 @@ pub(super) struct StateHours<'h> {
     pub(super) has_sun_of_all: bool,
 }
 
-/// What does not depend on the point.
+/// A room in one state of its blinds: all that does not depend on the point.
 pub(super) struct State<'y, S> {
     context: &'y Context<'y, S>,
     settings: &'y Settings,
@@ -135,8 +135,8 @@ impl<'y, S: Spectrum> State<'y, S> {
         }
     }
 
-    /// Traces the points of a block until all are done, or somebody who is told what share of that
-    /// seems to be over says that it does not go on: then they are no use.
+    /// Traces the points of a block until all are done, or until the caller, who is told what share
+    /// of that seems to be over, stops it: then they are of no use.
     pub(super) fn simulate<'t>(
         &self,
         first: usize,
@@ -216,7 +216,7 @@ impl<'y, S: Spectrum> State<'y, S> {
         }
     }
 
-    /// What share of the paths that a point needs it has by now, as far as its interval tells.
+    /// Share of its needed paths that a point has by now, as far as its interval tells.
     fn share_of(&self, point: &PointInWork<'_>) -> f64 {
         let known = point.relative_half_width.filter(|known| *known > self.settings.rel_tol);
         match known {

@@ -50,7 +50,7 @@ pub(super) struct SunDisks {
     pub(super) deciding_rays: u64,
 }
 
-/// What an hour's sun gives straight.
+/// Illuminance in lx straight from an hour's sun.
 pub(super) struct SunLight {
     pub(super) hour: usize,
     pub(super) lx: f32,
@@ -61,7 +61,7 @@ struct SeenDisk {
     sun: usize,
     /// Whether a part of it may be seen.
     is_part: bool,
-    /// What it gives by the rays that decide alone, in lx.
+    /// Its illuminance in lx by the rays that decide alone.
     glanced_lx: f64,
 }
 
@@ -113,7 +113,7 @@ impl SunDisks {
         Self { seen, sums, rays, deciding_rays: queue.rays }
     }
 
-    /// What the suns of hours give by the rays that decide, in lx.
+    /// Illuminances straight from the suns of hours by the rays that decide, in lx.
     pub(super) fn glances<'a>(&'a self, suns: &'a [ShiningSun]) -> impl Iterator<Item = SunLight> {
         let glance =
             |disk: &SeenDisk| SunLight { hour: suns[disk.sun].hour, lx: disk.glanced_lx as f32 };
@@ -158,7 +158,7 @@ impl SunDisks {
         queue.rays
     }
 
-    /// What comes straight from the sun in a replicate, hour by hour of those in which it may be
+    /// Illuminances straight from the sun in a replicate, hour by hour of those in which it may be
     /// seen, in lx.
     pub(super) fn illuminances_lx<'a>(
         &'a self,

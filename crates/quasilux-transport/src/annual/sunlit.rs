@@ -70,10 +70,10 @@ pub fn sunlit_points(
     own.fold(none, count).reduce(none, add)
 }
 
-/// What each sensor point, in their order, makes of which of these places of the sun it sees the
+/// Digest, for each sensor point in their order, of which of these places of the sun it sees the
 /// centre of: past surfaces and through clear panes.
 ///
-/// One ray to each says it. Runs in the rayon pool that the call is made in.
+/// One ray to each decides. Runs in the rayon pool that the call is made in.
 #[must_use]
 pub fn seen_suns<T: Send>(
     scene: &Scene,

@@ -19,9 +19,9 @@ const BLOCK: usize = 64;
 /// The hours of a year.
 #[derive(Clone, Copy, Debug)]
 pub struct YearHours<'h> {
-    /// What shines, hour by hour.
+    /// Sky and sun, hour by hour.
     pub skies: &'h [WeatherSky],
-    /// The rooms that blinds make of it where they are not all open, no two of them in one hour.
+    /// Rooms that blinds make of the scene where they are not all open, no two of them in one hour.
     pub other_rooms: &'h [OtherRoom<'h>],
 }
 
