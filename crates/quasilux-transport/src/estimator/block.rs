@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// What all blocks of some work have in common.
+/// Data that all blocks of some work have in common.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) enum BlockFrame {
     /// Paths of all growing targets and replicates, put in one row.

@@ -12,7 +12,7 @@ const TARGETS: usize = 256;
 /// Chunks of them between two words to the observer.
 const AT_ONCE: usize = POINTS_AT_ONCE / TARGETS;
 
-/// What a sensor point gets of point-like lights, without sampling, in lx.
+/// Light of point-like lights at a sensor point, computed without sampling, in lx.
 #[derive(Clone, Default)]
 pub(crate) struct Exact {
     pub(crate) direct_lx: f64,
@@ -55,7 +55,7 @@ impl Exact {
     }
 }
 
-/// What is computed of all targets before the first sample.
+/// Light at all targets that is computed before the first sample.
 pub(crate) struct ComputedLight {
     /// By target, nothing at cells.
     pub(crate) of_targets: Vec<Exact>,

@@ -28,14 +28,14 @@ pub(crate) trait Estimator {
     #[must_use]
     fn advance(&mut self, samples: u64, watch: &mut Watch<'_>) -> bool;
 
-    /// What was decided before the first sample.
+    /// Decisions made before the first sample.
     fn decisions(&self) -> Decisions;
 
     /// Puts out all that has grown; called between pieces of the work.
     fn put(&self, out: &mut Writer);
 
-    /// Takes that in before the first sample, so that [`Self::advance`] to the checkpoint `coming`
-    /// does what is left.
+    /// Takes in what [`Self::put`] put out, before the first sample, so that [`Self::advance`] to
+    /// the checkpoint `coming` does what is left.
     fn merge_from(&mut self, coming: u64, from: &mut Reader<'_>) -> Result<(), StateError>;
 
     /// Before the first sample: traces the indices of a part of a run of `samples`, and
@@ -46,13 +46,13 @@ pub(crate) trait Estimator {
     /// Puts out what serves all indices, as far as estimates need it: the same in all parts.
     fn put_shared(&self, out: &mut Writer);
 
-    /// Takes that in, once.
+    /// Takes in what [`Self::put_shared`] put out, once.
     fn merge_shared(&mut self, from: &mut Reader<'_>) -> Result<(), StateError>;
 
     /// Puts out what belongs to the indices of a part.
     fn put_part(&self, out: &mut Writer);
 
-    /// Adds that.
+    /// Adds what [`Self::put_part`] put out.
     fn merge_part(&mut self, from: &mut Reader<'_>) -> Result<(), StateError>;
 
     /// Traces a block of the work of another process, for what that adds to its sums; those of
@@ -63,7 +63,7 @@ pub(crate) trait Estimator {
     /// Declares the sums complete up to `samples`.
     fn complete_at(&mut self, samples: u64);
 
-    /// What is known now. Settings, intervals and warnings are filled in by the caller.
+    /// Estimates so far. Settings, intervals and warnings are filled in by the caller.
     fn estimates(&self) -> Estimates;
 
     /// Stops sampling converged targets;
@@ -76,7 +76,7 @@ pub(crate) trait Estimator {
     fn first_checkpoint(&self) -> u64;
 }
 
-/// Where nobody stops it, or is obeyed.
+/// Why a trace that no observer can stop has a result.
 pub(crate) const UNSTOPPED: &str = "nobody stops it";
 
 /// The estimator of the settings, its plan made; `None` when the observer stopped it before that.

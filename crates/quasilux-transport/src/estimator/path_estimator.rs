@@ -63,18 +63,18 @@ struct SharedLight<S> {
     caustics: Option<CausticMap<S>>,
     /// Indices that they are traced for, where that is for blocks of another process.
     traced_for: u64,
-    /// What each target showed before the maps last changed.
+    /// Illuminance in lx of each target before the maps last changed.
     last_lx: Vec<Option<f64>>,
 }
 
-/// What was traced.
+/// Counts of traced paths and photons.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 struct Costs {
     work: WorkCounts,
     photons: PhotonCounts,
 }
 
-/// What was traced, by what it serves.
+/// Counts of traced paths and photons, by what they serve.
 struct CostsByKind {
     /// Before the first sample.
     prepared: Costs,

@@ -46,7 +46,7 @@ pub(crate) struct PhotonEstimator<'a, S> {
     context: &'a Context<'a, S>,
     scene: &'a Scene,
     receivers: Receivers,
-    /// What guides the photons.
+    /// Result of the survey, which guides the photons.
     plan: Plan,
     /// One row of counters a replicate.
     counters: Vec<Counters>,
@@ -317,7 +317,7 @@ impl Counters {
         self.all[counter].load(Ordering::Relaxed)
     }
 
-    /// Those of one number of bounces; past the last that is counted, the rest.
+    /// Photons of one number of bounces, in quanta; past the last that is counted, the rest.
     fn term(&self, bounces: usize, counter: usize) -> u64 {
         let counted = |counts: &Vec<AtomicU64>| counts[counter].load(Ordering::Relaxed);
         match self.by_bounces.get(bounces) {

@@ -67,7 +67,8 @@ impl TargetProgress {
         self.find_growing();
     }
 
-    /// What another process needs to trace a block of the work up to the checkpoint `coming`.
+    /// Progress that another process needs to trace a block of the work up to the checkpoint
+    /// `coming`.
     pub(crate) fn frame(&self, coming: u64) -> PathProgress {
         PathProgress { samples: self.samples, coming, ends: self.ends.clone() }
     }
@@ -104,7 +105,7 @@ impl TargetProgress {
         out.value(&self.ends);
     }
 
-    /// Takes that in before the first sample; `coming` is the next checkpoint.
+    /// Takes in what [`Self::put`] put out, before the first sample; `coming` is the next checkpoint.
     ///
     /// # Errors
     /// Where it is no progress of as many targets before that checkpoint.

@@ -25,7 +25,7 @@ pub(super) struct BoxNode {
     count: u32,
 }
 
-/// What is in a box.
+/// Contents of a box.
 pub(super) enum Inside<'t> {
     Boxes([u32; 2]),
     Things(&'t [u32]),

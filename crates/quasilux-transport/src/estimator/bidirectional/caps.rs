@@ -34,8 +34,8 @@ const RISES: f64 = 2.0;
 /// Bounds of all targets.
 pub(super) struct Caps {
     of_targets: Vec<Cap>,
-    /// The same of eye paths alone, the largest of all targets; infinite where they cannot make all
-    /// paths.
+    /// Bound `K W` of eye paths alone, the largest of all targets; infinite where they cannot make
+    /// all paths.
     of_eye_lx: f64,
 }
 
@@ -57,7 +57,7 @@ enum Straight {
     Computed,
     /// In lx.
     AtMost(f64),
-    /// Hangs on the place of a point; of cells nothing is known.
+    /// Depends on the place of a point; of cells nothing is known.
     OfLuminaires,
 }
 
@@ -152,8 +152,8 @@ impl Caps {
         self.of_targets.iter().enumerate().map(of_target).collect()
     }
 
-    /// The same of the average over targets of which each has this many trials at least: an eye
-    /// path of one of m targets adds an m-th.
+    /// Light in lx of the average over targets by ways on which no sample lay, at most, where each
+    /// has this many trials at least: an eye path of one of m targets adds an m-th.
     pub(super) fn unseen_of_average_lx(&self, point_lx: &[f64], least_trials: f64) -> f64 {
         let m = point_lx.len().max(1) as f64;
         let mean = point_lx.iter().sum::<f64>() / m;
@@ -161,7 +161,7 @@ impl Caps {
     }
 }
 
-/// What eye paths alone leave open at any target, where they can make all paths.
+/// Bound `K W` of eye paths alone in lx, the largest of all targets, where they can make all paths.
 fn of_eye_paths_lx(kinds: &[Kind], of_targets: &[Cap]) -> f64 {
     let straight = |kind: &Kind| match kind.straight {
         Straight::Computed => 0.0,

@@ -34,11 +34,11 @@ enum Counter {
 struct Cells {
     plane: GridPlane,
     behind: Option<GridPlane>,
-    /// Those that count, in ascending order, each with its section.
+    /// Cells that count, in ascending order, each with its section.
     sections: Vec<(usize, usize)>,
 }
 
-/// What a photon adds.
+/// Light that a photon adds to a section.
 pub(super) struct Crossing<S> {
     pub(super) section: usize,
     pub(super) light: S,
@@ -163,7 +163,7 @@ impl Receiver {
     }
 }
 
-/// What a photon that crosses gives: `vertex` is the place that measures.
+/// Light that a photon adds where it crosses: `vertex` is the place that measures.
 pub(super) fn share<S: Spectrum>(
     engine: &Engine<'_, '_, S>,
     receiver: &Receiver,

@@ -50,7 +50,7 @@ pub(crate) struct BidirectionalEstimator<'a, S> {
     pilot_rays: u64,
 }
 
-/// What was traced.
+/// Counts of traced paths and photons, and their flux.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(super) struct Costs {
     pub(super) paths: WorkCounts,
@@ -185,7 +185,7 @@ impl<'a, S: Spectrum> BidirectionalEstimator<'a, S> {
         self.progress.samples_of(target) as f64 * f64::from(self.replicates)
     }
 
-    /// What is known at points of light that no sample met.
+    /// Bounds, at all points, on light that no sample met.
     fn unseen(&self) -> UnseenLight {
         let trials = |target| self.trials(target);
         let exact_lx = || self.computed.of_targets.iter().map(Exact::sum_lx).collect();

@@ -60,11 +60,11 @@ struct EyePath<'p, S> {
     last: LastVertex<S>,
 }
 
-/// What an eye path has passed.
+/// Counts of what an eye path has passed.
 struct Passed {
     /// Surfaces and panes.
     surfaces: u32,
-    /// Those of them that are vertices.
+    /// Surfaces among them that are vertices.
     vertices: u32,
 }
 
@@ -89,7 +89,7 @@ struct MirroredFrom<S> {
     pdf_sr: f64,
 }
 
-/// What an eye path weighs, by who finds a light past narrow surfaces ([`FoundBy`]).
+/// Weights of an eye path, by who finds a light past narrow surfaces ([`FoundBy`]).
 #[derive(Clone, Copy, Default)]
 struct EyeWeights([SubpathWeights; 2]);
 
@@ -120,12 +120,12 @@ impl<S: Spectrum> Default for EyePaths<S> {
     }
 }
 
-/// Who gets what paths find.
+/// Receives the light that paths find.
 pub(crate) trait Sink<S> {
     /// Adds light that came to a section by this many surfaces and panes.
     fn add(&mut self, section: usize, bounces: u32, light: S);
 
-    /// The same of light that a photon brought.
+    /// Adds light that a photon brought to a section by this many surfaces and panes.
     fn add_merged(&mut self, section: usize, bounces: u32, light: S);
 }
 
@@ -190,7 +190,7 @@ impl<S: Spectrum> EyePaths<S> {
 }
 
 impl<S: Spectrum> EyePath<'_, S> {
-    /// What happens where its ray ends; whether it goes on.
+    /// Handles the end of its ray; returns whether it goes on.
     fn arrive(
         &mut self,
         engine: &Engine<'_, '_, S>,
@@ -296,9 +296,9 @@ impl<S: Spectrum> EyePath<'_, S> {
         self.go_on(engine, at, &frame, &next, scale.recip())
     }
 
-    /// What it weighs at a surface: light subpaths are joined to the target at the first, where
-    /// photons take part as well, and connected to a part of the others; nothing is joined over a
-    /// mirror, which has no edge.
+    /// Weights at a surface: light subpaths are joined to the target at the first, where photons
+    /// take part as well, and connected to a part of the others; nothing is joined over a mirror,
+    /// which has no edge.
     fn beside_light_subpaths(&self, arrived: EyeWeights, edge: Option<&JoinEdge>) -> EyeWeights {
         if self.passed.vertices > 0 {
             return arrived.map(|it| it.times(CONNECTED, 1.0));
@@ -364,7 +364,7 @@ impl<S: Spectrum> EyePath<'_, S> {
         found.add(self.section, self.passed.surfaces, light);
     }
 
-    /// What it weighs where it runs into a light: straight from the start photons take part.
+    /// Weights where it runs into a light: straight from the start photons take part.
     fn straight(&self, weights: EyeWeights, is_of_area: bool) -> EyeWeights {
         match self.passed.vertices {
             0 => {

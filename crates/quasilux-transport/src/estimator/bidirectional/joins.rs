@@ -1,9 +1,9 @@
 //! Light vertices joined to the target itself.
 //!
-//! Of the vertices of the light subpaths that a target is joined to, each is taken with a chance
-//! that hangs on the place of both alone, so it may stand in weights: certain where cosines over
-//! squared distance are large, else in proportion to them. They are drawn evenly along the list of
-//! all (systematic sampling), from one coordinate.
+//! Of the vertices of the light subpaths that a target is joined to, each is taken with a
+//! probability that depends on the places of both alone, so it may stand in weights: certain where
+//! cosines over squared distance are large, else in proportion to them. They are drawn evenly along
+//! the list of all (systematic sampling), from one coordinate.
 
 use super::engine::Engine;
 use super::light_subpath::{LightSubpaths, LightVertex};

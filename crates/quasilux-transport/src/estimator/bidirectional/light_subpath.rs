@@ -74,7 +74,7 @@ struct LightSubpath<'p, S> {
 /// The way of a subpath since its last vertex.
 #[derive(Clone)]
 pub(super) struct Leg<S> {
-    /// What it weighs, having left its last vertex; nothing is known before the first.
+    /// Weights after it left its last vertex; unknown before the first.
     weights: LightWeights,
     /// Before the last pane, in m.
     distance_m: f64,
@@ -85,7 +85,7 @@ pub(super) struct Leg<S> {
     mirrored: Option<MirroredWay<S>>,
 }
 
-/// What a leg begins at.
+/// Vertex that a leg begins at.
 #[derive(Clone, Copy)]
 pub(super) enum LastVertex {
     Light,
@@ -142,7 +142,7 @@ pub(super) struct LightSubpaths<S> {
     pub(super) vertices: Vec<LightVertex<S>>,
     /// Of the same vertices.
     pub(super) places: JoinPlaces,
-    /// Those of each subpath begin there, and end where the next begin.
+    /// Number of the first vertex of each subpath, and of all vertices.
     begins: Vec<usize>,
     pub(super) rays: u64,
     /// Cut on their way.
@@ -151,12 +151,12 @@ pub(super) struct LightSubpaths<S> {
 }
 
 impl<S> LightSubpaths<S> {
-    /// Those of one.
+    /// Vertices of one subpath.
     pub(super) fn vertices_of(&self, subpath: usize) -> &[LightVertex<S>] {
         &self.vertices[self.numbers_of(subpath..subpath + 1)]
     }
 
-    /// The numbers of those of some.
+    /// Numbers of the vertices of some subpaths.
     pub(super) fn numbers_of(&self, subpaths: Range<usize>) -> Range<usize> {
         self.begins[subpaths.start]..self.begins[subpaths.end]
     }
@@ -270,7 +270,7 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
         Passing { number: *number, flight, flux_lm: *flux_lm, bounces: *bounces, leg, photon }
     }
 
-    /// What happens where its flight ends; whether it goes on.
+    /// Handles the end of its flight; returns whether it goes on.
     fn arrive(
         &mut self,
         engine: &Engine<'_, '_, S>,
@@ -359,7 +359,7 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
         self.flux_lm.luminance()
     }
 
-    /// What it weighs where it arrives at a vertex.
+    /// Weights where it arrives at a vertex.
     fn weights_at(
         &self,
         engine: &Engine<'_, '_, S>,
@@ -411,7 +411,7 @@ impl<S: Spectrum> Leg<S> {
         self.mirrored.is_some()
     }
 
-    /// What its subpath weighs where it ends.
+    /// Weights of its subpath where it ends.
     fn weights_at(
         &self,
         engine: &Engine<'_, '_, S>,
@@ -459,7 +459,7 @@ impl<S: Spectrum> Passing<'_, S> {
         self.leg.distance_m + along_m
     }
 
-    /// What its subpath weighs where it crosses a place that measures.
+    /// Weights of its subpath where it crosses a place that measures.
     pub(super) fn weights_at(
         &self,
         engine: &Engine<'_, '_, S>,

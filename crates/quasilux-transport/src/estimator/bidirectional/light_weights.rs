@@ -1,6 +1,6 @@
-//! What techniques weigh that leave vertices of a light subpath to eye paths.
+//! Weights of the techniques that leave vertices of a light subpath to eye paths.
 //!
-//! An eye path favours its first vertices ([`favour`]), so what it weighs there hangs on the number
+//! An eye path favours its first vertices ([`favour`]), so its weight there depends on the number
 //! that a vertex has in it: a light subpath, which does not know how far it is to the target, keeps
 //! the sums for each number that there may be.
 

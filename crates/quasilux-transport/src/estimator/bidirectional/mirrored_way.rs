@@ -13,13 +13,13 @@ pub(super) struct MirroredWay<S> {
     distance_m: f64,
     /// The planes that they mirror in.
     pub(super) planes: Vec<u32>,
-    /// What all of them reflect.
+    /// Share of the light that all of them together reflect.
     reflected: S,
 }
 
 impl<S: Spectrum> MirroredWay<S> {
-    /// Of a subpath that has just left an emitting facet, or a place that asks; `None` where nobody
-    /// asks for images of area lights.
+    /// Of a subpath that has just left an emitting facet, or a place that asks; `None` where images
+    /// of area lights are not asked for.
     pub(super) fn new(context: &Context<'_, S>) -> Option<Self> {
         let nothing = || Self { distance_m: 0.0, planes: Vec::new(), reflected: S::white() };
         context.images.show_emitters().then(nothing)

@@ -95,7 +95,7 @@ impl PhotonDisc {
     }
 }
 
-/// This many directions, evenly around in the plane with the normal `n`.
+/// Directions evenly around in the plane with the normal `n`; `looks` is their number.
 pub(super) fn around(n: DVec3, looks: u32) -> impl Iterator<Item = DVec3> {
     let across = n.any_orthonormal_vector();
     let beside = n.cross(across);
@@ -142,8 +142,8 @@ pub(super) struct Receiver {
     pub(super) radiance_scale: f64,
     /// Light subpaths of an index.
     pub(super) subpaths: u64,
-    /// Those whose photons count that come from narrow surfaces, with light that eye paths hardly
-    /// find.
+    /// Photons of an index that count where they come from narrow surfaces with light that eye
+    /// paths hardly find.
     pub(super) photons: u64,
     /// In m^2: a join is made for certain where cosines over squared distance are one over it.
     pub(super) per_sure_m2: f64,
@@ -151,7 +151,7 @@ pub(super) struct Receiver {
     pub(super) most_lx: f64,
 }
 
-/// Those of all targets; `None` when the observer stopped it.
+/// Receivers of all targets; `None` when the observer stopped it.
 pub(super) fn receivers<S: Spectrum>(
     context: &Context<'_, S>,
     targets: &[Target],
@@ -180,7 +180,7 @@ pub(super) fn connected(target: usize, index: u64, subpaths: u64) -> u64 {
     (target as u64).wrapping_add(index).wrapping_add(index / subpaths) % subpaths
 }
 
-/// What rays meet around a point with the normal `n`.
+/// Surroundings of a point with the normal `n`, as rays meet them.
 struct Around {
     /// How far it is to the nearest wall in its plane.
     free_m: f64,
@@ -293,14 +293,14 @@ impl Receiver {
         self.subpaths as f64 * self.join_probability(edge)
     }
 
-    /// The chance of a join: by its cosines over squared distance. Narrow surfaces may send more
+    /// Probability of a join: by its cosines over squared distance. Narrow surfaces may send more
     /// the lower, so of them the cosine is left out.
     pub(super) fn join_probability(&self, edge: &JoinEdge) -> f64 {
         let cos_there = if edge.is_narrow { 1.0 } else { edge.cos_there };
         self.join_probability_of(edge.cos * cos_there / edge.square_m2)
     }
 
-    /// The same by what it goes with, in m^-2.
+    /// Probability of a join by its cosines over squared distance, in m^-2.
     pub(super) fn join_probability_of(&self, per_m2: f64) -> f64 {
         (per_m2 * self.per_sure_m2).min(1.0)
     }

@@ -99,7 +99,7 @@ impl<S: Spectrum> BidirectionalEstimator<'_, S> {
         true
     }
 
-    /// What the sensors show after the units so far of a row: all replicates of a target
+    /// Illuminances of the sensors after the units so far of a row: all replicates of a target
     /// together, over all indices that they have.
     fn snapshot(&self, row: &Row) -> Snapshot {
         let progress = &self.progress;
@@ -174,7 +174,8 @@ impl<S: Spectrum> BidirectionalEstimator<'_, S> {
         self.put_own(out);
     }
 
-    /// Takes that in, before the first sample; `coming` is the next checkpoint.
+    /// Takes in what [`Self::put_all`] put out, before the first sample; `coming` is the next
+    /// checkpoint.
     pub(super) fn take_in_all(
         &mut self,
         coming: u64,
@@ -187,20 +188,20 @@ impl<S: Spectrum> BidirectionalEstimator<'_, S> {
         self.take_in_own(from)
     }
 
-    /// What belongs to the indices of a part alone.
+    /// Puts out what belongs to the indices of a part alone.
     pub(super) fn put_own(&self, out: &mut Writer) {
         self.costs.put(out);
         self.sums.as_slice().put(out);
     }
 
-    /// Adds that.
+    /// Adds what [`Self::put_own`] put out.
     pub(super) fn take_in_own(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
         self.costs.merge_from(from)?;
         self.sums.as_mut_slice().merge_from(from)
     }
 }
 
-/// What units cost.
+/// Counts of the work of units.
 fn counts(found: &[UnitSums]) -> BlockCounts {
     let sum = |of: fn(&UnitSums) -> u64| found.iter().map(of).sum();
     BlockCounts {

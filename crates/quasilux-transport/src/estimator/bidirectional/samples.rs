@@ -14,8 +14,8 @@ use crate::bsdf::Bsdf;
 use crate::spectrum::Spectrum;
 use crate::world::{Facet, World};
 
-/// What glass turns back of the light that meets it, both faces of dense glass together, but at
-/// grazing incidence.
+/// Share that glass turns back of the light that meets it, both faces of dense glass together, but
+/// at grazing incidence.
 const TURNED_BY_GLASS: f64 = 0.15;
 
 /// Of all techniques with a sample at each vertex: of surfaces that scatter.

@@ -64,7 +64,7 @@ impl<'l, 'a> Sources<'l, 'a> {
         self.choice.as_ref().map_or(0.0, |choice| choice.pdf(number))
     }
 
-    /// What photons stand for.
+    /// Largest flux in lm that a photon of each kind of lights stands for, were it the only one.
     pub(super) fn photon_fluxes(&self) -> PhotonFluxes {
         let mut most = PhotonFluxes::default();
         for number in 0..self.lights.len() {
@@ -94,12 +94,12 @@ impl<'l, 'a> Sources<'l, 'a> {
         self.share(number) / self.lights.flux_of_lm(number)
     }
 
-    /// Those for each lumen of a luminaire with an area.
+    /// Photons for each lumen of a luminaire with an area.
     pub(super) fn of_luminaire_per_lm(&self, number: usize) -> f64 {
         self.per_lm(self.lights.pointlikes.len() + number)
     }
 
-    /// Those for each lumen of the emitting facets.
+    /// Photons for each lumen of the emitting facets.
     pub(super) fn of_emitters_per_lm(&self) -> f64 {
         self.per_lm(self.lights.ways_numbers().start - 1)
     }

@@ -93,7 +93,7 @@ pub(super) fn supremum<S: Spectrum>(
     )
 }
 
-/// The same over some triangles.
+/// At least the largest value over some triangles.
 pub(super) fn supremum_over(parts: impl Iterator<Item = SeenPart>, value: &impl Bounded) -> f64 {
     let open = parts.map(|it| Open { bound: f64::INFINITY, what: What::Part(it) });
     search(open.collect(), value, |_| Vec::new(), |_| 0.0)

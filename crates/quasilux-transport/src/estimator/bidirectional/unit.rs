@@ -53,7 +53,7 @@ impl<S: Spectrum> Sink<S> for SectionSums<'_> {
     }
 }
 
-/// What came of a unit.
+/// Sums of a unit, and counts of its work.
 #[derive(Serialize, Deserialize)]
 pub(super) struct UnitSums {
     /// Of each target.

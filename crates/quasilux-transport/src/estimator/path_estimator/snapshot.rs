@@ -13,7 +13,7 @@ use crate::spectrum::Spectrum;
 use crate::stats::tally::Sum;
 use std::ops::Range;
 
-/// What a target shows after some paths, in lx; `None` where there were none to tell.
+/// Illuminance of a target after some paths, in lx; `None` where there were none to tell.
 #[derive(Clone, Copy)]
 pub(super) struct Moment {
     /// Straight from the lights, and what only mirrors and lenses lead there.
@@ -21,14 +21,14 @@ pub(super) struct Moment {
     pub(super) all_lx: Option<f64>,
 }
 
-/// What all targets showed before their maps changed.
+/// Illuminances of all targets before their maps changed.
 pub(super) struct Before<'g, 'a, S> {
     gathering: &'g PathEstimator<'a, S>,
     moments: Vec<Moment>,
 }
 
 impl<'a, S: Spectrum> PathEstimator<'a, S> {
-    /// What the targets show at the last checkpoint.
+    /// Illuminances of the targets at the last checkpoint.
     pub(super) fn before(&self) -> Before<'_, 'a, S> {
         let paths = |target: usize| self.paths_of(target);
         let targets = 0..self.targets.len();
@@ -36,7 +36,7 @@ impl<'a, S: Spectrum> PathEstimator<'a, S> {
         Before { gathering: self, moments }
     }
 
-    /// What the sensors show when `done` of the paths `indices` of all growing targets and
+    /// Illuminances of the sensors when `done` of the paths `indices` of all growing targets and
     /// replicates are over, in the order of [`PathEstimator::sums`].
     pub(super) fn snapshot(&self, indices: &Range<u64>, done: u64) -> Snapshot {
         let replicates = u64::from(self.replicates);
@@ -76,8 +76,8 @@ impl<'a, S: Spectrum> PathEstimator<'a, S> {
 }
 
 impl<S: Spectrum> Before<'_, '_, S> {
-    /// The same with what growing maps have under the targets, in place of what paths read from
-    /// them.
+    /// Illuminances of the sensors with what growing maps have under the targets, in place of what
+    /// paths read from them.
     pub(super) fn snapshot(&self, maps: &GrowingMaps<'_, S>) -> Snapshot {
         let PathEstimator { context, scene, targets, .. } = self.gathering;
         let value_lx = |(target, before): (_, &Moment)| {
@@ -87,7 +87,7 @@ impl<S: Spectrum> Before<'_, '_, S> {
         snapshot(scene, targets.iter().zip(&self.moments).map(value_lx))
     }
 
-    /// What each target showed.
+    /// Illuminance of each target, in lx.
     pub(super) fn into_lx(self) -> Vec<Option<f64>> {
         self.moments.into_iter().map(|moment| moment.all_lx).collect()
     }

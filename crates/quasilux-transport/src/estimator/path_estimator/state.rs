@@ -7,7 +7,7 @@ use crate::spectrum::Spectrum;
 use crate::stats::decisions::Decisions;
 
 impl<S: Spectrum> PathEstimator<'_, S> {
-    /// What was decided before the first path.
+    /// Decisions made before the first path.
     pub(super) fn decided(&self) -> Decisions {
         let SharedLight { end, caustics, .. } = &self.shared;
         let caustic_photons = caustics.as_ref().map(|caustics| caustics.photons_per_path());
@@ -38,7 +38,8 @@ impl<S: Spectrum> PathEstimator<'_, S> {
         self.put_own(out);
     }
 
-    /// Takes that in, before the first sample; `coming` is the next checkpoint.
+    /// Takes in what [`Self::put_all`] put out, before the first sample; `coming` is the next
+    /// checkpoint.
     pub(super) fn take_in_all(
         &mut self,
         coming: u64,
@@ -59,27 +60,27 @@ impl<S: Spectrum> PathEstimator<'_, S> {
         Ok(())
     }
 
-    /// What is the same in all parts of one run: of the photons that serve all paths, what the
-    /// estimate itself needs.
+    /// Puts out what is the same in all parts of one run: of the photons that serve all paths, what
+    /// the estimate itself needs.
     pub(super) fn put_shared(&self, out: &mut Writer) {
         self.costs.shared.put(out);
         self.shared.caustics.iter().for_each(|caustics| caustics.put_targets(out));
     }
 
-    /// Takes that in.
+    /// Takes in what [`Self::put_shared`] put out.
     pub(super) fn merge_shared(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
         self.costs.shared.merge_from(from)?;
         self.shared.caustics.iter_mut().try_for_each(|caustics| caustics.take_targets(from))
     }
 
-    /// What belongs to the indices of a part alone.
+    /// Puts out what belongs to the indices of a part alone.
     pub(super) fn put_own(&self, out: &mut Writer) {
         self.costs.paths.put(out);
         self.sums.as_slice().put(out);
         self.scores.as_slice().put(out);
     }
 
-    /// Adds that.
+    /// Adds what [`Self::put_own`] put out.
     pub(super) fn take_in_own(&mut self, from: &mut Reader<'_>) -> Result<(), StateError> {
         self.costs.paths.merge_from(from)?;
         self.sums.as_mut_slice().merge_from(from)?;

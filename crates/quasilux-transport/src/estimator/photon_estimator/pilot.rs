@@ -54,7 +54,7 @@ pub(crate) fn plan<S: Spectrum>(
     plan
 }
 
-/// What photons left in each counter, and the rays of all.
+/// Weights that photons left in each counter, and the rays of all.
 struct Pilots {
     /// By photon.
     sums: Vec<WeightSums>,
@@ -104,13 +104,13 @@ impl Pilots {
     }
 }
 
-/// What one photon leaves in one counter.
+/// Weight that one photon leaves in one counter.
 struct CounterWeight {
     counter: usize,
     weight: f64,
 }
 
-/// What one photon leaves in counters, contribution by contribution.
+/// Weights that one photon leaves in counters, contribution by contribution.
 struct CounterWeights<'r> {
     receivers: &'r Receivers,
     weights: Vec<CounterWeight>,

@@ -25,7 +25,7 @@ const BESIDE_LIGHT: f64 = 1.0 / 8.0;
 /// They are at least this many hairs.
 const MIN_HAIRS: f64 = 8.0;
 
-/// What counts photons, the same for all replicates.
+/// Grids and map elements that count photons, the same for all replicates.
 pub(crate) struct Receivers {
     grids: Vec<GridReceiver>,
     layout: MapLayout,

@@ -6,7 +6,7 @@ use crate::bsdf::Bsdf;
 use crate::spectrum::Spectrum;
 use std::f64::consts::FRAC_1_PI;
 
-/// `K W` of pixels, of each kind of lights. Joins are left out, so it hangs on no place.
+/// `K W` of pixels, of each kind of lights. Joins are left out, so it depends on no place.
 pub(in crate::estimator::bidirectional) struct PixelCaps(Vec<PixelCap>);
 
 /// Of one kind.

@@ -148,8 +148,8 @@ fn direction([height, around]: [f64; 2], is_above: bool) -> DVec3 {
     DVec3::new(r * cos, r * sin, if is_above { z } else { -z })
 }
 
-/// What an eye path that was lost nothing of finds of the lamps where it asks, over the probability
-/// of asking.
+/// Largest contribution in lx of a lamp to an eye path that has lost nothing, over the probability
+/// of asking for it.
 fn asked_lx(context: &Context<'_, f64>, surfaces: &Surfaces<'_, f64>, u: &[f64; 5]) -> f64 {
     let &[side, a, b, height, around] = u;
     let Some(at) = place(surfaces, side, [a, b]) else { return 0.0 };
@@ -171,8 +171,8 @@ fn asked_lx(context: &Context<'_, f64>, surfaces: &Surfaces<'_, f64>, u: &[f64; 
     (0..lights.len()).map(of_lamp).fold(0.0, f64::max)
 }
 
-/// What a lumen at a light vertex gives to a target that it is joined to, over the probability of
-/// that.
+/// Contribution in sr^-1 m^-2 of each lumen at a light vertex to a target that it is joined to,
+/// over the probability of that.
 fn joined_sr_m2(surfaces: &Surfaces<'_, f64>, receiver: &Receiver, u: &[f64; 5]) -> f64 {
     let &[side, a, b, height, around] = u;
     let Some(at) = place(surfaces, side, [a, b]) else { return 0.0 };

@@ -125,7 +125,7 @@ impl<'w, S: Spectrum> Surfaces<'w, S> {
     }
 }
 
-/// What lights give to surfaces, in lx.
+/// Illuminance by lights in lx, or pi times what surfaces send on of it.
 struct Lit<'s, 'w, S> {
     /// Whose facets they are, and how much they send on; `None` for illuminances alone.
     surfaces: Option<&'s Surfaces<'w, S>>,
@@ -224,7 +224,7 @@ fn corners_of_box(low: DVec3, high: DVec3) -> [DVec3; 8] {
     })
 }
 
-/// What a lumen at a light vertex gives to a target, in sr^-1 m^-2.
+/// Contribution in sr^-1 m^-2 of each lumen at a light vertex to a target.
 struct JoinBound<'s, 'w, S> {
     surfaces: &'s Surfaces<'w, S>,
     receiver: &'s Receiver,

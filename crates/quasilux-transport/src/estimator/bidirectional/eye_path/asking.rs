@@ -21,7 +21,7 @@ const CANDIDATES: usize = 4;
 /// Lights without extent that are asked at the surface that a pixel sees.
 const ASKED_AT_ONCE: usize = 8;
 
-/// What is asked at a vertex.
+/// Vertex of an eye path that asks for light.
 pub(super) struct EyeVertex<'v, 'w, S> {
     pub(super) vertex: &'v Vertex<'w, S>,
     pub(super) weights: EyeWeights,

@@ -140,7 +140,7 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
         self.sample_direct_areas(engine, &others, &of_area, work);
     }
 
-    /// What it weighs having left where it measures, in a direction of this density and cosine.
+    /// Sets the weights after it left where it measures, in a direction of this density and cosine.
     fn leave(&mut self, context: &Context<'_, S>, vertex: &Vertex<'_, S>, pdf_sr: f64, cos: f64) {
         self.last.weights = EyeWeights([SubpathWeights::new(1.0 / pdf_sr, cos / pdf_sr); 2]);
         self.last.asked_from = Some(Asking::at(vertex));

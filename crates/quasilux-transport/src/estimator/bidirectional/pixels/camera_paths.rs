@@ -32,7 +32,7 @@ pub(super) struct Seen<'p, S> {
     pub(super) surface: FirstSurface<S>,
 }
 
-/// What becomes of a path where its ray ends.
+/// Outcome of a path where its ray ends.
 enum Arrival<S> {
     Over,
     GoesOn,

@@ -18,7 +18,7 @@ const MIN_PHOTONS: u64 = 1 << 11;
 pub(crate) const MAX_PHOTONS: u64 = 1 << 13;
 const PIXELS_A_PHOTON: usize = 16;
 
-/// Those of a picture of this many pixels.
+/// Photons of an index for a picture of this many pixels.
 pub(super) fn photons(pixels: usize) -> u64 {
     let wanted = (pixels / PIXELS_A_PHOTON).next_power_of_two() as u64;
     wanted.clamp(MIN_PHOTONS, MAX_PHOTONS)

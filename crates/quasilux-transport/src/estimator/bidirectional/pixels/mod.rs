@@ -41,12 +41,12 @@ pub(crate) struct PixelTracer<'a, S> {
     /// Whether photons are counted: eye paths find all light of scenes without narrow surfaces.
     merges: bool,
     emitting: EmittingFacets<'a, S>,
-    /// What places in the open take.
+    /// Receiver of places in the open.
     open: Receiver,
     caps: PixelCaps,
 }
 
-/// Who gets what the paths of pixels find, in cd/m^2; sections are the pixels of a unit.
+/// Receives the light that the paths of pixels find, in cd/m^2; sections are the pixels of a unit.
 pub(crate) trait PixelSink<S>: Sink<S> {
     /// Tells that a path of a pixel came to a surface that scatters, where photons count on a disc
     /// of this area in m^2.

@@ -32,14 +32,14 @@ pub(super) fn largest_receiver<S: Spectrum>(world: &World<S>, photons: Option<u6
     }
 }
 
-/// What a path sees, and what that takes.
+/// Surface that a path sees, with its receiver.
 pub(super) struct SeenPlace<'p, S> {
     pub(super) seen: Seen<'p, S>,
     pub(super) receiver: Receiver,
 }
 
 impl<S: Spectrum> PixelTracer<'_, S> {
-    /// Surfaces that paths see, with what they take.
+    /// Surfaces that paths see, with their receivers.
     pub(super) fn places<'p>(
         &self,
         per_sure_m2: f64,
