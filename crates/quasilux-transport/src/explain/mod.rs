@@ -46,7 +46,7 @@ const MIN_SHARE: f64 = 0.01;
 /// Where the variance of an estimate comes from, by coordinates.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Explanation {
-    /// What was traced.
+    /// Kind of the samples.
     pub walk: SampleKind,
     /// Sensor points whose paths were looked at, or sensors whose average photons were.
     pub targets: usize,
@@ -65,14 +65,14 @@ pub struct Explanation {
     /// Sum of all total shares: how many blocks act together on average, 1 where effects just add
     /// (the mean dimension of Liu and Owen 2006, by blocks). `None` where nothing varies.
     pub interacting_blocks: Option<f64>,
-    /// This many first coordinates carry 99 % of the variance, to whole blocks (the effective
+    /// Number of first coordinates that carry 99 % of the variance, to whole blocks (the effective
     /// dimension in the truncation sense); `None` where it takes those past the last block.
     pub truncation_dimension: Option<u32>,
-    /// What the sequence of the run is worth; `None` where nothing is randomised or nothing varies.
+    /// Gain by the sequence of the run; `None` where nothing is randomised or nothing varies.
     pub gain: Option<Gain>,
 }
 
-/// What a pilot traces.
+/// Kind of samples that a pilot traces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SampleKind {
     /// Photons from the lights that sensors count.
@@ -99,13 +99,13 @@ impl SampleKind {
 pub struct Block {
     /// Its coordinates, counted from 0; the last block has all that follow.
     pub dimensions: Range<u32>,
-    /// What they feed, by falling share.
+    /// Decisions that they feed, by falling share.
     pub uses: Vec<Use>,
     /// Share of the samples that get to its first coordinate.
     pub reached: f64,
     /// Share of the variance that it carries alone; `None` where nothing varies.
     pub alone: Option<Share>,
-    /// Share of the variance that hangs on it, alone or with others.
+    /// Share of the variance that depends on it, alone or with others.
     pub total: Option<Share>,
     /// The power of a small step with which the squared difference falls: 2 where values are smooth
     /// in the block, 1 where they jump. `None` where it carries too little to tell.
@@ -115,7 +115,7 @@ pub struct Block {
 /// A decision that a block feeds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Use {
-    /// What for.
+    /// Purpose of the decision.
     pub purpose: Purpose,
     /// Share of the block's coordinates that were drawn for it.
     pub share: f64,
@@ -173,7 +173,7 @@ fn on_stage<S: Spectrum>(scene: &Scene, settings: &Settings) -> Explanation {
     }
 }
 
-/// What samples found.
+/// Values that samples found.
 struct Pilot {
     /// Of each target, by index.
     values: Vec<Vec<f64>>,
@@ -218,7 +218,8 @@ trait SampleSource: Sync {
     fn kind(&self) -> SampleKind;
     /// How many samples make a pilot.
     fn samples(&self) -> u64;
-    /// What deviations of each target are measured by, where that is not the mean of its values.
+    /// Values in lx that deviations of each target are relative to, where that is not the mean of
+    /// its values.
     fn whole_lx(&self) -> Option<&[f64]> {
         None
     }

@@ -39,7 +39,7 @@ struct PathTarget {
     given_lx: f64,
 }
 
-/// What some paths of one target found.
+/// Values that some paths of one target found.
 struct Piece {
     values: Vec<f64>,
     rays: u64,

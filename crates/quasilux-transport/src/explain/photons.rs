@@ -27,13 +27,13 @@ pub(super) struct PhotonSource<'s, S> {
     sensors: usize,
 }
 
-/// What a photon adds to the average of a sensor that reads its counter.
+/// Illuminance in lx that a photon adds to the average of a sensor that reads its counter.
 struct Reading {
     sensor: usize,
     lx: f64,
 }
 
-/// What one photon adds to the average of each sensor, in lx.
+/// Illuminance in lx that one photon adds to the average of each sensor.
 struct PhotonReadings<'w> {
     receivers: &'w Receivers,
     readings: &'w [Vec<Reading>],

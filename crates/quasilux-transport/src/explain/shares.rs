@@ -2,7 +2,7 @@
 //!
 //! With f(A) and f(B) of independent points, and f(AB) of points with the block from B and the rest
 //! from A, the block's share of the variance V alone is `E f(B) (f(AB) - f(A)) / V`, and with all
-//! that hangs on it `E (f(A) - f(AB))^2 / 2 V` (Saltelli et al. 2010, table 2, (b) and (f)).
+//! that depends on it `E (f(A) - f(AB))^2 / 2 V` (Saltelli et al. 2010, table 2, (b) and (f)).
 //! Several targets are taken together, each in units of its mean, or of all the light there.
 //! Standard errors are those of ratios of means, to first order.
 
@@ -81,7 +81,7 @@ impl<'v> Spread<'v> {
         })
     }
 
-    /// The share that hangs on a block, from values with it exchanged.
+    /// The share that depends on a block, from values with it exchanged.
     pub(super) fn total(&self, exchanged: &[Vec<f64>]) -> Option<Share> {
         self.share(|target, index| {
             let difference = self.a[target][index] - exchanged[target][index];
