@@ -20,7 +20,7 @@ use crate::stats::estimates::Estimates;
 use crate::stats::picture::CameraEstimates;
 use quasilux_scene::{Camera, Scene};
 
-/// Wanted of a picture where nobody says anything else.
+/// Relative half-width that a picture is to reach by default.
 const REL_TOL: f64 = 0.05;
 /// Paths of each pixel in each replicate at most, where only a tolerance is wanted.
 const MAX_SAMPLES: u64 = 1 << 12;
@@ -32,7 +32,8 @@ const MIN_SAMPLES_OF_BIDIRECTIONAL: u64 = 2;
 const BLURRED: f64 = 0.1;
 /// Where half-widths are this many times the tolerance, one pass does not know what another needs.
 const FAR: f64 = 8.0;
-/// Where nobody knows what is needed, the number of paths grows by this factor from pass to pass.
+/// Where the number that is needed is unknown, the number of paths grows by this factor from pass
+/// to pass.
 const GROWTH: u64 = 16;
 /// Photons for each path of a pixel that look for light which paths cannot find.
 const CAUSTIC_PHOTONS: u64 = 1 << 12;
@@ -77,7 +78,7 @@ pub(crate) fn add_pictures<S: Spectrum>(
     estimates.caveats.extend(Caveat::of_picture_paths(work.endless));
 }
 
-/// What is wanted of a picture.
+/// Tolerance of a picture, and limits of its paths.
 #[derive(Clone, Copy, Debug)]
 struct PictureGoal {
     rel_tol: Option<f64>,
@@ -142,7 +143,7 @@ impl PictureGoal {
     }
 
     /// Paths of a pixel in the passes after this one, which follows what is known; `None` where
-    /// nobody knows.
+    /// that is unknown.
     fn later(&self, pass: &Pass, before: &CameraEstimates) -> Option<f64> {
         let Some(rel_tol) = self.rel_tol else {
             let next = |least: &u64| (*least < self.most).then(|| least.saturating_mul(GROWTH));
@@ -166,7 +167,7 @@ impl PictureGoal {
         (share > told).then_some(Caveat::PictureBlurred { camera, share, radius_m })
     }
 
-    /// What a reader must know of a picture that is not what was wanted.
+    /// Warning that a picture is not what was wanted.
     fn shortfall(&self, camera: &Camera, figures: &CameraEstimates) -> Option<Caveat> {
         let camera = camera.name.clone();
         let samples = figures.samples;

@@ -58,11 +58,11 @@ enum Tracer<'a, S> {
     Bidirectional(Box<PixelTracer<'a, S>>),
 }
 
-/// What serves the pixels that are traced together.
+/// Light that serves the pixels that are traced together.
 enum Light<'d, S> {
     /// Light that plain paths do not find.
     Caustics(Option<&'d CausticMap<S>>),
-    /// That of some indices, of each replicate.
+    /// Light subpaths of some indices, of each replicate.
     Subpaths(&'d PixelTracer<'d, S>, Vec<PictureLight<S>>),
 }
 
@@ -79,7 +79,7 @@ pub(super) struct Step {
     pub(super) rays: u64,
     /// Paths of a pixel in a replicate so far, on average over the picture.
     pub(super) done: f64,
-    /// Those probably to come.
+    /// Paths of a pixel in a replicate that are probably to come, on average over the picture.
     pub(super) left: f64,
 }
 
@@ -89,7 +89,7 @@ struct Tile {
     number: usize,
     /// Paths of each pixel in each replicate.
     samples: u64,
-    /// Those probably to come.
+    /// Paths of each pixel in each replicate that are probably to come.
     expected: f64,
     /// Whether it is known well enough.
     is_known: bool,
@@ -286,7 +286,7 @@ impl<'a, S: Spectrum> PictureIntegrator<'a, S> {
         Some(())
     }
 
-    /// What is known of a picture; finds the squares of the blocks.
+    /// Estimates of a picture; computes the mean square errors of the blocks.
     fn result(
         &self,
         pixels: Vec<Pixel>,
@@ -345,7 +345,7 @@ impl<'a, S: Spectrum> PictureIntegrator<'a, S> {
         }
     }
 
-    /// What serves all pixels with these indices.
+    /// Light that serves all pixels with these indices.
     fn light(&self, indices: Range<u64>, work: &mut WorkCounts) -> Light<'_, S> {
         let tracer = match &self.tracer {
             Tracer::Paths(caustics) => return Light::Caustics(caustics.as_deref()),
@@ -440,14 +440,14 @@ impl<'a, S: Spectrum> PictureIntegrator<'a, S> {
         work
     }
 
-    /// What is known of the pixels of a block.
+    /// Estimates of the pixels of a block.
     fn pixels(&self, tile: &Tile) -> Vec<Pixel> {
         let BlockSums { sums, least_disc_m2 } = &tile.found;
         let own = sums.chunks_exact(self.replicates as usize).zip(least_disc_m2);
         own.map(|(own, disc_m2)| self.pixel(own, tile.samples, disc_m2.unwrap_or(0.0))).collect()
     }
 
-    /// What the replicates say together.
+    /// Estimate of a pixel from all replicates.
     fn pixel(&self, own: &[PixelSums], samples: u64, disc_m2: f64) -> Pixel {
         let means = own.iter().map(|sums| sums.mean::<S>(samples, self.quantum));
         let share = 1.0 / own.len() as f64;

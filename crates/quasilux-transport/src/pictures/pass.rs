@@ -27,11 +27,11 @@ pub(super) struct Pass {
     pub(super) least: u64,
     /// No block has more.
     pub(super) most: u64,
-    /// What a block is to be known to; where nothing is, it gets the most.
+    /// Errors that blocks are to reach; without any, each gets the most paths.
     targets: Option<Targets>,
 }
 
-/// What the blocks of a picture are to be known to.
+/// Errors that the blocks of a picture are to reach.
 #[derive(Clone, Debug)]
 struct Targets {
     /// All together.
@@ -48,7 +48,7 @@ struct BlockTarget {
     samples: f64,
 }
 
-/// What an earlier pass knows of a block.
+/// Error of a block in an earlier pass, and its paths.
 #[derive(Clone, Debug)]
 pub(super) struct KnownBlock {
     pub(super) pixels: usize,
@@ -61,7 +61,7 @@ pub(super) struct KnownBlock {
 }
 
 impl Pass {
-    /// This many paths of each pixel.
+    /// A pass with this many paths of each pixel.
     pub(super) fn of_all(samples: u64) -> Self {
         Self { first: 0, least: samples, most: samples, targets: None }
     }
@@ -128,7 +128,7 @@ pub(super) fn square_of<'p>(pixels: impl Iterator<Item = &'p Pixel>, mean_cd_m2:
 mod tests {
     use super::*;
 
-    /// What blocks get together is the square of the tolerance, and noisy ones are let be noisier.
+    /// Blocks together get the square of the tolerance, and noisy ones are let be noisier.
     #[test]
     fn blocks_share_the_tolerance() {
         let blocks = [(256, 0.04), (256, 0.01), (128, 0.0), (64, 0.16)]

@@ -7,7 +7,7 @@ use crate::stats::tally::{Quantum, Sum};
 /// Channels of a picture.
 const RGB: usize = 3;
 
-/// What the paths of a block found.
+/// Sums over the paths of a block.
 pub(super) struct BlockSums {
     /// Of pixel p in replicate r at `p * replicates + r`.
     pub(super) sums: Vec<PixelSums>,
@@ -16,7 +16,7 @@ pub(super) struct BlockSums {
     pub(super) least_disc_m2: Vec<Option<f64>>,
 }
 
-/// What the paths of one pixel in one replicate found.
+/// Sums over the paths of one pixel in one replicate.
 #[derive(Clone, Copy, Default)]
 pub(super) struct PixelSums {
     channels: [Sum; RGB],
