@@ -12,7 +12,7 @@ pub enum CheckError {
     OutOfRange {
         /// Name of the setting.
         setting: &'static str,
-        /// What it can be.
+        /// Values that it can have.
         expected: &'static str,
     },
     /// The points of a sequence that must know how many there are have to be those of the run.
@@ -188,7 +188,7 @@ pub(crate) fn caveats(scene: &Scene, settings: &Settings) -> Vec<Caveat> {
     caveats
 }
 
-/// What biases the values.
+/// Warnings about biased values.
 fn caveats_of_values(scene: &Scene, settings: &Settings) -> Vec<Caveat> {
     let mut caveats = Vec::new();
     match settings.estimator {

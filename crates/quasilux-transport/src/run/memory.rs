@@ -50,7 +50,7 @@ pub struct MemoryNeed {
     pub map_tables_bytes: u64,
     /// Illumination maps that are full.
     pub maps_bytes: u64,
-    /// What a sample adds to them at most, while they are not.
+    /// Bytes that a sample adds to them at most, while they are not full.
     pub maps_bytes_a_sample: u64,
     /// Pictures, and photons that serve their pixels.
     pub pictures_bytes: u64,
@@ -156,7 +156,7 @@ fn elements(scene: &Scene, settings: &Settings, across: f64, split: u64) -> u64 
     (cut as u64).saturating_add(split).min(settings.map_elements.max(triangles))
 }
 
-/// What guides photons in the cells of a survey.
+/// Bytes of what guides photons in the cells of a survey.
 fn cells_bytes(settings: &Settings) -> u64 {
     let guides_photons =
         matches!(settings.estimator, EstimatorKind::Photon | EstimatorKind::BidirectionalMap);

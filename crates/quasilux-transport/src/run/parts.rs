@@ -24,7 +24,7 @@ use std::fmt::Write;
 use std::ops::Range;
 use thiserror::Error;
 
-/// What surveys and pilots decide for these settings.
+/// Decisions of surveys and pilots for these settings.
 #[must_use]
 pub fn decide(scene: &Scene, settings: &Settings) -> Decisions {
     fn decide_in<S: Spectrum>(scene: &Scene, settings: &Settings) -> Decisions {

@@ -44,7 +44,7 @@ pub fn simulate<'a>(
     simulate_on(SimdLevel::fastest(), scene, settings, observer)
 }
 
-/// The same with a ray kernel of choice.
+/// [`simulate`] with a ray kernel of choice.
 pub(crate) fn simulate_on<'a>(
     simd: SimdLevel,
     scene: impl Into<PreparedScene<'a>>,
@@ -242,11 +242,11 @@ pub(crate) struct Look {
     pub(crate) standing: Standing,
 }
 
-/// What a run has at a checkpoint.
+/// Sums of a run at a checkpoint.
 #[derive(Clone, Copy)]
 pub(crate) struct Sums<'e> {
     pub(crate) estimator: &'e dyn Estimator,
-    /// What the checkpoint before found, if there was one.
+    /// Estimates of the checkpoint before, if there was one.
     pub(crate) before: Option<&'e Estimates>,
 }
 
@@ -292,7 +292,7 @@ pub(crate) fn look<S: Spectrum>(
     Look { estimates, standing }
 }
 
-/// What a reader must know of the values of this checkpoint.
+/// Warnings about the values of this checkpoint.
 fn caveats_of_checkpoint(estimates: &Estimates) -> Vec<Caveat> {
     let contributions = estimates.invalid_contributions;
     let points = estimates.unresolved_points;

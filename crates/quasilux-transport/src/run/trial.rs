@@ -19,7 +19,7 @@ use crate::stats::estimates::Estimates;
 use quasilux_scene::{Rgb, Scene};
 use std::ops::Range;
 
-/// What was traced.
+/// Counts of photons and rays that were traced.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Traced {
     /// Photons.
@@ -38,7 +38,7 @@ pub trait PhotonTrial: Send {
     fn counters(&self) -> Vec<u64>;
 }
 
-/// What [`crate::simulate`] finds with a ray kernel of choice, one of [`SimdLevel::all`].
+/// Estimates of [`crate::simulate`] with a ray kernel of choice, one of [`SimdLevel::all`].
 #[must_use]
 pub fn simulate_with(simd: SimdLevel, scene: &Scene, settings: &Settings) -> Estimates {
     simulate_on(simd, scene, settings, &mut ())
