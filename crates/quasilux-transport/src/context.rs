@@ -12,7 +12,7 @@ use glam::DVec3;
 use quasilux_bvh::SimdLevel;
 use quasilux_sampling::{PointSet, Sampler, Sequence, stream_key};
 
-/// What a wave spends its time on.
+/// Step of a wave, for measurements of time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Step {
     /// Making coordinates, where they are made for many photons at once.
@@ -27,7 +27,7 @@ pub enum Step {
     Scattering,
 }
 
-/// Is told when a wave ends a step, so that somebody with a clock can tell the steps apart.
+/// A clock that is told when a wave ends a step, to measure the steps apart.
 pub trait Stopwatch: Sync {
     /// The thread that calls has just ended a piece of this step.
     fn lap(&self, step: Step);
@@ -55,7 +55,7 @@ pub(crate) struct Context<'a, S> {
     settings: &'a Settings,
 }
 
-/// What a stream of coordinates is for. Streams never share coordinates; but at one index they have
+/// Purpose of a stream of coordinates. Streams never share coordinates; but at one index they have
 /// the same digits in each dimension, permuted, so what is drawn together must come from different
 /// dimensions.
 #[derive(Clone, Copy, Debug)]
@@ -76,7 +76,8 @@ pub(crate) enum Stream {
     Survey(u64),
     /// Paths from one sensor point, numbered through all sensors.
     Paths(u64),
-    /// The same of paths that know where light was reflected.
+    /// Paths from one sensor point that know where light was reflected, numbered through all
+    /// sensors.
     DaylightPaths(u64),
     /// The sun as one sensor point sees it straight, numbered through all sensors.
     SunDisks(u64),
@@ -161,7 +162,7 @@ impl<'a, S: Spectrum> Context<'a, S> {
         Self::on(SimdLevel::chosen(), scene, settings)
     }
 
-    /// The same for a ray kernel of choice: no result depends on it.
+    /// [`Self::new`] for a ray kernel of choice: no result depends on it.
     pub(crate) fn on(
         simd: SimdLevel,
         scene: impl Into<PreparedScene<'a>>,

@@ -11,7 +11,7 @@ pub(crate) const MAX_EVENTS: u32 = 4096;
 /// table says, however much that is.
 pub(crate) const MAX_GAIN: f64 = 100.0;
 
-/// What surfaces made of light on its way, expected values of all chances: the product of their
+/// Gain of light by the surfaces on its way, expected values of all choices: the product of their
 /// albedos.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Gain(f64);

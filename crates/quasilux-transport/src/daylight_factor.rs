@@ -39,14 +39,14 @@ pub struct FoundIlluminance {
     pub samples: u64,
 }
 
-/// What is known of the light at a sensor point beside its illuminance.
+/// Components of the daylight at a sensor point beside its illuminance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DaylightComponents {
     /// From the sky, in lx.
     pub sky_lx: Interval,
     /// From surfaces and ground beyond the openings, in lx.
     pub externally_reflected_lx: Interval,
-    /// What of each may come by ways on which no path lay, at most, in lx, with
+    /// Light in lx of each component that may come by ways on which no path lay, at most, with
     /// [`UNSEEN_CONFIDENCE`](crate::unseen::UNSEEN_CONFIDENCE).
     pub unseen_lx: f64,
 }
@@ -147,7 +147,7 @@ fn add<S: Spectrum>(
     });
 }
 
-/// What is known after this many paths of each replicate, each of which finds `most_lx` at most.
+/// Components after this many paths of each replicate, each of which finds `most_lx` at most.
 fn components(sums: &[[f64; 2]], paths: u64, most_lx: f64, t: Option<f64>) -> DaylightComponents {
     let [sky_lx, externally_reflected_lx] =
         [0, 1].map(|k| Interval::of_mean(sums.iter().map(|sums| sums[k] / paths as f64), t));

@@ -31,7 +31,7 @@ impl<'a> PreparedScene<'a> {
         &self.hierarchy
     }
 
-    /// The same for a ray kernel of choice.
+    /// The hierarchy for a ray kernel of choice.
     pub(crate) fn hierarchy_for(&self, simd: SimdLevel) -> Arc<TriangleBvh> {
         if simd == SimdLevel::fastest() {
             Arc::clone(&self.hierarchy)

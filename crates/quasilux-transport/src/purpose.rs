@@ -11,7 +11,7 @@ use std::sync::{Mutex, PoisonError};
 pub enum Purpose {
     /// Light of a photon, and its direction; its place where the light is an area.
     Emission,
-    /// What the emission from an area needs beside that: the direction, or the place.
+    /// The rest of the emission from an area: the direction, or the place.
     EmissionOfArea,
     /// Where a path starts in its cell.
     Cell,

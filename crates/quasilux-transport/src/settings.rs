@@ -75,7 +75,7 @@ impl Switch {
     }
 }
 
-/// What has to reach the tolerance: a closed set.
+/// Quantities that have to reach the tolerance: a closed set.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum ToleranceOn {
@@ -107,7 +107,7 @@ pub enum IntervalKind {
     /// Student's t over replicates, which decides when a run ends.
     #[default]
     StudentT,
-    /// The same, and limits that hold for any number of samples ([`crate::certified`]).
+    /// Student's t, and limits that hold for any number of samples ([`crate::certified`]).
     Certified,
 }
 
@@ -174,7 +174,7 @@ impl<'de> Deserialize<'de> for UnseenTolerance {
     }
 }
 
-/// What the photons in an element of the illumination map say about its illuminance.
+/// Reconstruction of the illuminance in an element of the illumination map from its photons.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Reconstruction {
@@ -198,8 +198,8 @@ impl Reconstruction {
     }
 }
 
-/// What a simulation is asked to do. No field refers to threads or time: the result is a function
-/// of the scene and this.
+/// Settings of a simulation. No field refers to threads or time: the result is a function of the
+/// scene and this.
 ///
 /// As a document (serde) they have the names of their fields, their values the names that users
 /// write. A sequence is there by its name alone: the number of points that Hammersley's must know
@@ -222,7 +222,7 @@ pub struct Settings {
     pub abs_tol_lx: f64,
     /// How much light that no sample met is little enough, of estimators that bound it.
     pub unseen_tol: UnseenTolerance,
-    /// What has to reach the tolerances.
+    /// Quantities that have to reach the tolerances.
     pub tolerance_on: ToleranceOn,
     /// Which intervals are reported.
     pub interval: IntervalKind,
@@ -258,7 +258,7 @@ pub struct Settings {
     pub map_elements: u64,
     /// Whether elements are split where pilot photons show that the illumination varies in them.
     pub map_adaptive: bool,
-    /// What the photons in an element say about its illuminance.
+    /// Reconstruction of the illuminance in an element from its photons.
     pub map_reconstruction: Reconstruction,
     /// Photons of each map that grows for every path of a sensor point, at least 1: with many
     /// sensor points, one each is few beside the paths.
