@@ -65,7 +65,7 @@ struct SingleRays<'a, A> {
     next: u32,
 }
 
-/// What is asked of a ray: the closest hit, or whether there is any.
+/// Answer that is asked of a ray: the closest hit, or whether there is any.
 trait Answer: Copy {
     /// The answer of a ray that hits nothing.
     const MISS: Self;

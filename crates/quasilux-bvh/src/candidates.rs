@@ -21,7 +21,7 @@ pub(crate) struct Candidates {
     count: usize,
     /// The least of their distances.
     first: f32,
-    /// Those for which there was no room.
+    /// Candidates for which there was no room.
     more: Vec<Candidate>,
 }
 

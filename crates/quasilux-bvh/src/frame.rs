@@ -47,7 +47,7 @@ pub(crate) struct FrameRay {
     pub(crate) moved: f64,
 }
 
-/// What became of a ray on its way into the frame.
+/// Outcome of a ray's way into the frame.
 pub(crate) enum Framed {
     /// It can be searched for.
     Ray(FrameRay),

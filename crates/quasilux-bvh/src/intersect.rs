@@ -107,7 +107,7 @@ pub(crate) fn longest_axis(direction: DVec3) -> usize {
 }
 
 impl Corners {
-    /// The same corners, axis by axis.
+    /// Coordinates of the corners, axis by axis.
     #[must_use]
     pub fn new([a, b, c]: [DVec3; 3]) -> Self {
         Self([0, 1, 2].map(|axis| [a[axis], b[axis], c[axis], 0.0]))
@@ -137,7 +137,7 @@ pub fn intersect(ray: &PreparedRay, corners: &Corners, triangle: u32) -> Option<
     intersect_with::<PortableQuad>(ray, corners, triangle)
 }
 
-/// The same with other instructions, to the same bits.
+/// [`intersect`] with other instructions, to the same bits.
 #[inline(always)]
 pub(crate) fn intersect_with<Q: Quad>(
     ray: &PreparedRay,
@@ -175,7 +175,7 @@ pub(crate) fn least_area<Q: Quad>(products: Q) -> Q {
     products.mul(Q::splat(NARROW)).add(Q::splat(MIN_AREA))
 }
 
-/// The same for sheared corners, axis by axis, without rounding until all signs are known.
+/// The hit for sheared corners, axis by axis, without rounding until all signs are known.
 #[cold]
 #[inline(never)]
 fn intersect_narrow(t_max: f64, [x, y, z]: [[f64; 4]; 3], triangle: u32) -> Option<Hit> {

@@ -9,7 +9,7 @@ use glam::{DVec3, Vec3A};
 /// Children of a node and triangles of a block.
 pub(crate) const WIDTH: usize = 8;
 
-/// What each box is grown by, in the frame.
+/// Distance by which each box is grown, in the frame.
 ///
 /// Take a hit at distance `t` and an axis along which the ray rises; the other direction and the
 /// far planes are symmetric. With `d` and `o` direction and origin and `'` for what single
@@ -177,9 +177,9 @@ impl Slack {
 
     /// The factors of `s` and `q` in the bound of the weights of second and third corner.
     pub(crate) const WEIGHT: [f32; 2] = [48.0 * H, 16.0 * H];
-    /// Those of the weight of the first corner.
+    /// The factors of `s` and `q` in the bound of the weight of the first corner.
     pub(crate) const REST: [f32; 2] = [192.0 * H, 48.0 * H];
-    /// That of `q` in the bound of the distance.
+    /// The factor of `q` in the bound of the distance.
     pub(crate) const DISTANCE: f32 = 256.0 * H;
     /// More than all that is lost where products underflow.
     pub(crate) const UNDERFLOW: f32 = 1e-36;

@@ -20,7 +20,7 @@ impl Ray {
         Self { origin, direction, t_max: f64::INFINITY }
     }
 
-    /// The same ray, ending before the distance `t_max`.
+    /// This ray, ending before the distance `t_max`.
     #[must_use]
     pub const fn up_to(self, t_max: f64) -> Self {
         Self { t_max, ..self }

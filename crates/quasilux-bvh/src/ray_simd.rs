@@ -82,7 +82,7 @@ impl<L: Lanes> RaySimd<L> {
         }
     }
 
-    /// What the ray sees of a block, up to `end`.
+    /// Tests the triangles of a block, up to `end`.
     #[inline(always)]
     pub(crate) fn test<'a>(&self, block: &'a Block, end: f32) -> TriangleTest<'a, L> {
         let (edge_1, edge_2) = (load::<L>(&block.edge_1), load(&block.edge_2));
@@ -99,8 +99,8 @@ impl<L: Lanes> RaySimd<L> {
     }
 }
 
-/// What a ray sees of the triangles of a block, or rays of a triangle, all times the size of the
-/// determinant.
+/// Test of a ray against the triangles of a block, or of rays against a triangle, all times the
+/// size of the determinant.
 pub(crate) struct TriangleTest<'a, L> {
     slack: &'a Slack,
     /// The smaller of the weights of second and third corner.
@@ -111,7 +111,7 @@ pub(crate) struct TriangleTest<'a, L> {
     reach: L,
     /// One.
     size: L,
-    /// What is left of the ray behind the hit.
+    /// Length of the ray behind the hit.
     left: L,
 }
 

@@ -6,7 +6,7 @@ use std::sync::OnceLock;
 /// Which instructions are used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SimdLevel {
-    /// Those of every machine.
+    /// Instructions of every machine.
     Portable,
     /// AVX2 and fused multiply-add of x86-64.
     #[cfg(target_arch = "x86_64")]
@@ -37,7 +37,7 @@ impl SimdLevel {
         Self::all().into_iter().find(|level| level.name() == name)
     }
 
-    /// What it is called: `portable`, `avx2` or `avx512`.
+    /// Name of the level: `portable`, `avx2` or `avx512`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {

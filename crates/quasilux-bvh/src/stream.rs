@@ -27,7 +27,7 @@ const ROOM: usize = 24;
 /// Where the children that wait begin: behind as many that are none and one that ends the search.
 const BOTTOM: usize = WIDTH + 1;
 
-/// What provides rays and decides what they hit.
+/// Source of rays, which decides what they hit.
 pub(crate) trait RaySource {
     /// The next ray.
     fn next_ray(&mut self) -> Option<ActiveRay>;
@@ -64,7 +64,7 @@ struct RayInFlight {
     children: [Child; BOTTOM + ROOM + WIDTH],
 }
 
-/// What a flight does next.
+/// Next step of a flight.
 type Step = u32;
 const NODE: Step = 0;
 const POP: Step = 1;
@@ -333,7 +333,7 @@ impl RayInFlight {
 }
 
 impl Child {
-    /// What a flight does there.
+    /// Step of a flight there.
     #[inline(always)]
     const fn step(self) -> Step {
         self.0 >> 30

@@ -22,7 +22,7 @@ pub(crate) struct Tree {
     pub(crate) corners: Vec<Corners>,
 }
 
-/// What is asked.
+/// A ray, and the triangles that do not count.
 pub(crate) struct Query {
     pub(crate) ray: FrameRay,
     /// Triangles that do not count.

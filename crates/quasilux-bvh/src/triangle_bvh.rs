@@ -32,7 +32,7 @@ impl TriangleBvh {
         Self::build_for(corners, SimdLevel::fastest())
     }
 
-    /// The same for a kernel of choice, which must be one of [`SimdLevel::all`].
+    /// [`Self::build`] for a kernel of choice, which must be one of [`SimdLevel::all`].
     ///
     /// # Panics
     /// As [`Self::build`], and for a kernel that this machine does not have.

@@ -24,7 +24,7 @@ struct Stored {
     high: Vec3A,
 }
 
-/// What the walk over a tree has found so far.
+/// Findings of the walk over a tree so far.
 struct Survey<'a> {
     tree: &'a Tree,
     frame: &'a Frame,
@@ -122,7 +122,7 @@ impl Stored {
         self.low.cmple(other.low).all() && other.high.cmple(self.high).all()
     }
 
-    /// What is inside by the margin.
+    /// The box, smaller by the margin on all sides.
     fn solid(&self) -> Solid {
         let (low, high) = (self.low.as_dvec3(), self.high.as_dvec3());
         Solid { low: low + MARGIN, high: high - MARGIN }
@@ -159,7 +159,7 @@ mod tests {
         large.chain(small).collect()
     }
 
-    /// What is said about a tree after a change.
+    /// Message about a tree after a change.
     fn flaw(change: impl FnOnce(&mut Tree)) -> String {
         let mut bvh = TriangleBvh::build(mesh());
         assert_eq!(bvh.validate(), Ok(()));

@@ -19,7 +19,7 @@ pub(crate) struct Grid {
 }
 
 impl Grid {
-    /// This many bins over a box, along axes that are longer than `least`.
+    /// `count` bins over a box, along axes that are longer than `least`.
     pub(crate) fn new(span: Bounds, least: f32, count: usize) -> Self {
         let extent = span.high - span.low;
         let scale = (extent.recip() * count as f32).min(Vec3A::splat(1e30));

@@ -28,10 +28,10 @@ const BALANCED_BELOW: u32 = 32;
 /// Subtrees with more references are built on all threads.
 const PARALLEL: usize = 2048;
 
-/// What a child costs its parent, in units of a block.
+/// Cost of a child to its parent, in units of a block.
 const CHILD_COST: f32 = 0.3;
 
-/// At most this many copies are made for each triangle.
+/// Largest number of copies for each triangle, on average over all.
 const MAX_COPIES: f64 = 1.0;
 
 /// A spatial split must cost less than this share of the object split: copies make blocks fuller,

@@ -112,7 +112,7 @@ pub(crate) fn all(corners: &[[DVec3; 3]], frame: &Frame, spare: usize) -> Vec<Re
     all
 }
 
-/// What `part` makes of all references, where it may make something of parts of them that `union`
+/// Result of `part` for all references, where it may be computed for parts of them that `union`
 /// puts together.
 pub(crate) fn in_parts<R: Send>(
     references: &[Reference],

@@ -8,7 +8,7 @@
 use super::reference::Bounds;
 use crate::node::{Child, Node, WIDTH};
 
-/// What a wide node costs, in units of a block.
+/// Cost of a wide node, in units of a block.
 const NODE_COST: f32 = 1.0;
 
 /// A binary tree.
@@ -35,9 +35,9 @@ pub(crate) struct Leaf {
 pub(crate) struct Plan {
     /// Cost with at most 1, 2, ... 8 slots.
     costs: [f32; WIDTH],
-    /// How many of them the left half gets; 0 if one slot less is as good.
+    /// Number of slots that the left half gets; 0 if one slot less is as good.
     left: [u8; WIDTH],
-    /// The same inside of a wide node of its own.
+    /// Number of slots that the left half gets inside of a wide node of its own.
     left_below: u8,
 }
 

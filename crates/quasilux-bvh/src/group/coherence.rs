@@ -31,12 +31,12 @@ pub(crate) struct Heading {
     pub(crate) backward: bool,
 }
 
-/// What the next shots are.
+/// Run of the next shots.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum RayRun {
-    /// This many that belong together.
+    /// Number of shots that belong together, and where they fly.
     Coherent(usize, Heading),
-    /// This many that do not.
+    /// Number of shots that do not belong together.
     Incoherent(usize),
 }
 

@@ -7,14 +7,14 @@
 use crate::group::rays::MAX_GROUP;
 use crate::node::WIDTH;
 
-/// What holding eight rays against a triangle costs.
+/// Cost of a test of eight rays against a triangle.
 pub(crate) const TRIAL: usize = 1;
-/// What holding a node against a shaft costs.
+/// Cost of a test of a node against a shaft.
 pub(crate) const NODE: usize = 2;
-/// What holding a block against a shaft costs.
+/// Cost of a test of a block against a shaft.
 pub(crate) const BLOCK: usize = 4;
 
-/// What eight rays cost alone.
+/// Cost of eight rays that go alone.
 const ALONE: usize = 400;
 
 /// Where not even small groups go together, this many rays go alone before the next attempt.
@@ -39,12 +39,12 @@ impl GroupSize {
         Self { most: MAX_GROUP, pause: 0 }
     }
 
-    /// This many rays may go together.
+    /// Largest number of rays that may go together.
     pub(crate) const fn most(&self) -> usize {
         self.most
     }
 
-    /// What a group of this many vectors of rays may cost.
+    /// Largest cost of a group of this many vectors of rays.
     pub(crate) const fn limit(vectors: usize) -> usize {
         vectors * ALONE
     }

@@ -37,7 +37,7 @@ pub(crate) struct GroupTracer {
     candidates: GroupCandidates,
 }
 
-/// What is asked of the rays, and where answers go.
+/// Places of the answers of rays: closest hits, or whether there is any.
 pub(crate) enum Answers<'a> {
     Closest(&'a mut [Option<Hit>]),
     Occluded(&'a mut [bool]),

@@ -17,7 +17,7 @@ use crate::lanes::Lanes;
 use crate::node::{Block, Node};
 use crate::ray_simd::Crossing;
 
-/// What planes are moved outward by.
+/// Distance by which planes are moved outward.
 const SLACK: f32 = 160.0 * H;
 
 /// The space around the rays of a group.
@@ -141,13 +141,13 @@ impl<L: Lanes> Side<L> {
         }
     }
 
-    /// How far a point is within this plane, one from below the rays.
+    /// How far a point is within this plane, where the plane lies below the rays.
     #[inline(always)]
     fn below(&self, along: L, aside: L) -> L {
         along.mul_add(self.tilt, aside).sub(self.bound)
     }
 
-    /// The same of one from above.
+    /// How far a point is within this plane, where the plane lies above the rays.
     #[inline(always)]
     fn above(&self, along: L, aside: L) -> L {
         along.mul_sub(self.tilt, aside).sub(self.bound)

@@ -70,7 +70,7 @@ pub(crate) struct LinearForms {
     slacks: [[f32; WIDTH]; 3],
 }
 
-/// Those of one triangle.
+/// Factors of one triangle.
 pub(crate) struct LinearForm<L> {
     normal: [L; 3],
     second: [L; 3],
