@@ -7,12 +7,12 @@ use std::ops::Range;
 /// When people are at work, in h from midnight (IES LM-83).
 pub(crate) const WORKING_HOURS: Range<f64> = 8.0..18.0;
 
-/// What a year is judged by.
+/// Terms that a year is judged by.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct YearTerms {
     /// When people are there.
     pub occupancy: Occupancy,
-    /// What illuminances are compared with.
+    /// Thresholds that illuminances are compared with.
     pub thresholds: Thresholds,
 }
 
@@ -45,7 +45,7 @@ pub enum OccupiedDays {
     },
 }
 
-/// What illuminances are compared with, in lx.
+/// Thresholds in lx that illuminances are compared with.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Thresholds {
     /// Enough light: 300 lx (IES LM-83).

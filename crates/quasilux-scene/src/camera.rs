@@ -43,7 +43,7 @@ pub struct View {
 }
 
 impl Camera {
-    /// What the name of its false-colour picture ends with, after its own name.
+    /// Ending of the name of its false-colour picture, after its own name.
     pub const FALSE_COLOUR_ENDING: &'static str = "-falsecolour";
 
     /// The number of pixels.

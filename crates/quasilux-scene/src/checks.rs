@@ -15,7 +15,7 @@ use std::sync::Arc;
 /// seconds at most.
 pub(crate) const MAX_TRIANGLE_TESTS: u64 = 200_000_000;
 
-/// What a sensor or camera needs.
+/// Cure for sensors and cameras, for messages.
 const EXPECTED: &str = "move it where light can reach it";
 
 /// A sensor point on a surface is judged by the place this share of the scene's size in front.

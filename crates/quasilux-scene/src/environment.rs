@@ -39,7 +39,7 @@ pub struct Opening {
     pub v: DVec3,
 }
 
-/// What a sky was made of, for what is said of it.
+/// Facts that a sky was made from, for reports.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SkyFacts {
     /// How its luminances are distributed.

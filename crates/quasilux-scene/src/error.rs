@@ -32,7 +32,7 @@ pub struct Warning {
     pub file: String,
     /// The place in it, where there is one.
     pub place: Option<Position>,
-    /// What is odd, and what was done about it.
+    /// The oddity, and what was done about it.
     pub message: String,
 }
 
@@ -63,7 +63,7 @@ impl LoadError {
         self.place
     }
 
-    /// What is wrong and what was expected.
+    /// The error, and what was expected.
     #[must_use]
     pub fn message(&self) -> &str {
         &self.message

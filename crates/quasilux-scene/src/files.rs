@@ -2,7 +2,7 @@
 
 use std::io;
 
-/// What a file is read as. Each kind has a size beyond which no file of it makes sense.
+/// Kind of a file, as which it is read. Each has a size beyond which no file of it makes sense.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum FileKind {
     /// Wavefront OBJ, glTF or GLB.

@@ -13,7 +13,7 @@ pub struct Scene {
     pub materials: Vec<Material>,
     /// The lights; at least one with a positive flux where nothing shines from outside.
     pub lights: Vec<Light>,
-    /// What shines from outside.
+    /// Light from outside.
     pub environment: Option<Environment>,
     /// The weather file that the sky is of: all of it, of which `environment` has one interval or,
     /// where the project names no time, a sky of 0 lx.

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-/// What a grid value means.
+/// Quantity of a grid's values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Quantity {
     /// The illuminance at the cell's centre.
@@ -43,7 +43,7 @@ pub struct Grid {
     pub counts: [u32; 2],
     /// Unit normal: light from this side counts.
     pub normal: DVec3,
-    /// What a value means.
+    /// Quantity of its values.
     pub quantity: Quantity,
     /// The illuminance in lx that is wanted everywhere, finite and above 0: pictures have its line.
     pub target_lx: Option<f64>,

@@ -18,7 +18,7 @@ pub struct AngularNode {
 }
 
 impl AngularTable {
-    /// The same share at all angles.
+    /// A table with one share at all angles.
     #[must_use]
     pub fn constant(share: f64) -> Self {
         let node = |theta_rad| AngularNode { theta_rad, share };

@@ -82,8 +82,8 @@ impl Pane {
         }
     }
 
-    /// What a clear pane of this index lets through at normal incidence: `2 eta / (eta^2 + 1)`,
-    /// from `(1 - r) / (1 + r)` with `r = ((eta - 1) / (eta + 1))^2` at each boundary.
+    /// Transmittance of a clear pane of this index at normal incidence: `2 eta / (eta^2 + 1)`, from
+    /// `(1 - r) / (1 + r)` with `r = ((eta - 1) / (eta + 1))^2` at each boundary.
     #[must_use]
     pub fn clear_transmittance(eta: f64) -> f64 {
         2.0 * eta / (eta * eta + 1.0)

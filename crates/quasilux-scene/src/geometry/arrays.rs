@@ -29,7 +29,7 @@ pub(super) fn read(
     Ok(())
 }
 
-/// What is wrong with the indices.
+/// Checks the indices.
 fn check(arrays: &TriangleArrays<'_>) -> Result<(), String> {
     let TriangleArrays { positions, triangles, material_of, materials, .. } = *arrays;
     if !material_of.is_empty() && material_of.len() != triangles.len() {

@@ -36,7 +36,7 @@ pub(crate) enum TriangleError {
     TooMany,
 }
 
-/// What a geometry file says of a material.
+/// Look of a material by a geometry file.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Look {
     pub(crate) reflectance: Rgb,
@@ -170,7 +170,7 @@ impl MeshBuilder {
 }
 
 impl TriangleError {
-    /// What to say about it: `what` names the geometry that the triangle belongs to.
+    /// Message about it: `what` names the geometry that the triangle belongs to.
     pub(crate) fn message(self, what: &str) -> String {
         match self {
             Self::NotFinite => format!(

@@ -66,7 +66,7 @@ fn surplus(mesh: &Mesh) -> Vec<bool> {
     surplus
 }
 
-/// What copies have in common: material and corners from the lowest on.
+/// Key that copies have in common: material, and corners from the lowest on.
 fn key(mesh: &Mesh, number: u32) -> [u32; 4] {
     let [a, b, c] = mesh.triangles[number as usize];
     let [first, second, third] = if a <= b && a <= c {

@@ -10,7 +10,7 @@ pub(super) struct Elements<'b> {
 }
 
 impl<'b> Elements<'b> {
-    /// Of a view of a buffer, from an offset on: this many elements of so many bytes.
+    /// Elements of a view of a buffer, from an offset on: `count` of them, of `size` bytes each.
     pub(super) fn new(
         name: &str,
         view: &::gltf::buffer::View<'_>,

@@ -17,7 +17,7 @@ pub(super) struct Target<'a> {
 }
 
 impl Target<'_> {
-    /// What messages call the object: the start of its name.
+    /// Name of the object in messages: the start of its own name.
     fn object_name(&self) -> String {
         format!("object \"{}\"", self.name.chars().take(60).collect::<String>())
     }

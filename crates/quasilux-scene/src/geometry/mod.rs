@@ -34,7 +34,7 @@ pub(crate) struct Geometry {
     pub(crate) materials: Vec<FileMaterial>,
 }
 
-/// What geometry files say about a material.
+/// Material as geometry files describe it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct FileMaterial {
     pub(crate) name: String,

@@ -8,7 +8,7 @@ use super::obj_lines::{text_of, without_comment};
 use crate::{Rgb, Warning};
 use quasilux_text::Position;
 
-/// What MTL files say of a material without `Kd`: the reflectance of the format's default grey.
+/// Reflectance of materials without `Kd` in MTL files: that of the format's default grey.
 const DEFAULT_REFLECTANCE: f64 = 0.8;
 
 /// A material of an MTL file.

@@ -55,7 +55,7 @@ pub(super) fn read(
     Ok(())
 }
 
-/// What was left out of a file, or lived with.
+/// Warnings about what was left out of a file, or lived with.
 fn oddities(lines: &ObjLines) -> impl Iterator<Item = String> {
     let counted = |count: u64, what: &str| (count > 0).then(|| format!("{count} {what}"));
     let unnamed = format!(
@@ -77,7 +77,7 @@ fn oddities(lines: &ObjLines) -> impl Iterator<Item = String> {
     .flatten()
 }
 
-/// What a material file counts for beside its bytes, so that their number is bounded.
+/// Bytes that a material file counts for beside its own, so that the number of files is bounded.
 const LIBRARY_BYTES: u64 = 1 << 16;
 
 /// Material files of one OBJ file; all together may have as many bytes as one.

@@ -91,7 +91,7 @@ fn refuse_binary(file: &str, bytes: &[u8]) -> Result<(), LoadError> {
     Err(LoadError::new(file, place, "binary data; expected an OBJ file, which is text"))
 }
 
-/// What was read so far, and the state that statements change.
+/// Lines that were read so far, and the state that statements change.
 #[derive(Default)]
 struct Reader {
     lines: ObjLines,
@@ -245,7 +245,7 @@ fn words_of(statement: &str) -> Words<'_> {
     words.into_iter().peekable()
 }
 
-/// What follows the keyword: a name that may hold spaces.
+/// Rest of a statement after the keyword: a name that may hold spaces.
 fn rest(statement: &str) -> &str {
     let statement = statement.trim();
     statement.split_once(char::is_whitespace).map_or("", |(_, rest)| rest.trim())
@@ -283,8 +283,8 @@ impl StatementReader<'_> {
         Ok(DVec3::new(coordinate("x")?, coordinate("y")?, coordinate("z")?))
     }
 
-    /// The same, where a comma is a decimal point, or stands behind a number: programs write such
-    /// files in countries with decimal commas.
+    /// The position of a `v` statement where a comma is a decimal point, or stands behind a number:
+    /// programs write such files in countries with decimal commas.
     fn position_with_commas(&self) -> Option<DVec3> {
         let words = self.statement.split_whitespace().skip(1);
         let number = |word: &str| {

@@ -76,14 +76,14 @@ fn fan(corners: &[usize]) -> Vec<[usize; 3]> {
     corners.windows(2).skip(1).map(|pair| [corners[0], pair[0], pair[1]]).collect()
 }
 
-/// What is left of a polygon.
+/// Part of a polygon that is left.
 struct Remainder<'a> {
     corners: &'a [DVec3],
     normal: DVec3,
     /// The corners before and after each that is left.
     before: Vec<usize>,
     after: Vec<usize>,
-    /// Those that are left, by place.
+    /// Corners that are left, by place.
     grid: CornerGrid,
 }
 
@@ -253,7 +253,7 @@ mod tests {
         assert_eq!(cutter.triangulate(&square).unwrap().len(), 2);
     }
 
-    /// The same by the definition, all corners against all others.
+    /// Triangles by the definition, all corners against all others.
     fn slow_twin(corners: &[DVec3]) -> Vec<[usize; 3]> {
         let normal = area_vector(corners);
         let mut left: Vec<usize> = (0..corners.len()).collect();

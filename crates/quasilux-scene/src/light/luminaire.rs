@@ -18,7 +18,7 @@ pub struct Luminaire {
     /// Factor on all intensities, at least 0: what the project asks for, times what the lamps give
     /// at this tilt ([`Photometry::tilt_factor`]), times the maintenance factor.
     pub dimming: f64,
-    /// What of it shines; [`LuminousShape::POINT`] where it stands for a point.
+    /// Luminous shape; [`LuminousShape::POINT`] where it stands for a point.
     pub shape: LuminousShape,
 }
 

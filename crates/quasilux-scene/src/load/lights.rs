@@ -87,7 +87,7 @@ fn luminaire(
     })
 }
 
-/// What the project asks of the light of the file.
+/// Factor on the light of the file that the project asks for.
 fn dimming(
     project: &Project,
     entry: &LuminaireEntry,
@@ -110,7 +110,7 @@ fn dimming(
     }
 }
 
-/// What the lamps give at the luminaire's tilt.
+/// Factor on the light of the lamps at the luminaire's tilt.
 fn tilt_factor(
     project: &Project,
     entry: &LuminaireEntry,
@@ -138,7 +138,7 @@ fn tilt_factor(
     tilt.factor
 }
 
-/// What of the luminaire shines: a point, unless the project asks for the file's own shape.
+/// Luminous shape of the luminaire: a point, unless the project asks for the file's own shape.
 fn shape(
     project: &Project,
     entry: &LuminaireEntry,

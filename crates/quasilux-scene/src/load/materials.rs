@@ -8,7 +8,7 @@ use crate::project::{LightEntry, MaterialEntry, Project, Scattering};
 use crate::{Bsdf, Files, LoadError, Material, Rgb, Warning};
 use std::collections::{HashMap, HashSet};
 
-/// Reflectance of what nobody defines.
+/// Reflectance of materials that neither the project nor a geometry file defines.
 const DEFAULT_REFLECTANCE: f64 = 0.5;
 
 /// The materials of the geometry, in its order.

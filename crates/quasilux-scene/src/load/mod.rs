@@ -28,15 +28,15 @@ pub struct Loaded {
     /// Factor in (0, 1] by which the lights of the scene are dimmer than when they were new; they
     /// have it in them.
     pub maintenance_factor: f64,
-    /// What the sky was made of; `None` where nothing is outside.
+    /// Facts that the sky was made from; `None` where nothing is outside.
     pub sky: Option<SkyFacts>,
-    /// What a year is judged by.
+    /// Terms that a year is judged by.
     pub annual: YearTerms,
     /// Blinds that move over a year; they are open in the scene.
     pub blinds: Option<Blinds>,
     /// Electric light that daylight dims over a year.
     pub electric_light: Vec<ElectricLight>,
-    /// What the project file asks of the engine.
+    /// Settings that the project file asks of the engine.
     pub simulation: SimulationSection,
     /// Oddities that were lived with.
     pub warnings: Vec<Warning>,

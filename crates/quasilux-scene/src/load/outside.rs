@@ -15,7 +15,7 @@ use quasilux_sky::{
 /// and in longitude: no more than they are rounded.
 const MAX_APART_DEG: f64 = 0.05;
 
-/// What is outside of a project.
+/// Sky, sun and weather outside of a project.
 #[derive(Default)]
 pub(super) struct Outside {
     pub(super) environment: Option<Environment>,
@@ -23,7 +23,7 @@ pub(super) struct Outside {
     pub(super) facts: Option<SkyFacts>,
 }
 
-/// What shines, with the file that says it.
+/// Sky and sun, with the file that says them.
 struct Light {
     sky: Sky,
     sun: Option<Sun>,
@@ -126,7 +126,7 @@ fn of_weather(
     Ok(Light { sky, sun, facts, weather: Some(weather) })
 }
 
-/// What the file says of a time.
+/// Sky and sun of a time by the file.
 fn light_at(
     project: &Project,
     weather: &Weather,

@@ -9,7 +9,7 @@ use std::collections::HashMap;
 /// The places of a scene's things in its project file, and what it says of the geometry files.
 #[derive(Clone, Debug)]
 pub struct Places {
-    /// What messages call the project file.
+    /// Name of the project file in messages.
     pub file: String,
     /// How long the project file is.
     pub file_bytes: u64,

@@ -8,11 +8,11 @@ use quasilux_text::{
     ParseError, Position, TextWarning, Warnings, decode, lines, quoted, refuse_web_page,
 };
 
-/// What a schedule says, and where.
+/// Column of a schedule, and the meaning of what is in it.
 pub(super) struct Scheduled<'s> {
     pub(super) file: &'s Spanned<String>,
     pub(super) column: &'s Spanned<String>,
-    /// What stands for the numbers from 0 on.
+    /// Names that stand for the numbers from 0 on.
     pub(super) names: &'s [&'s str],
     /// Of the weather file.
     pub(super) intervals: usize,

@@ -19,7 +19,7 @@ const KEYS: [&str; 8] = [
     "sunlight_lx",
 ];
 
-/// What a year is judged by, as far as the project file says it.
+/// Terms that a year is judged by, as far as the project file says them.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct AnnualEntry {
     pub(crate) occupancy: OccupancyEntry,

@@ -30,9 +30,9 @@ pub(crate) struct BlindsEntry {
 #[derive(Clone, Debug)]
 pub(crate) struct PositionEntry {
     pub(crate) name: String,
-    /// What is there beside the geometry of the scene.
+    /// Geometry that is there beside that of the scene.
     pub(crate) geometry: Vec<Spanned<String>>,
-    /// What materials of the geometry are while blinds are there.
+    /// Materials of the geometry while blinds are there.
     pub(crate) materials: Vec<MaterialEntry>,
 }
 

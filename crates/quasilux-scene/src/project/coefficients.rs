@@ -7,7 +7,7 @@ use crate::{LoadError, Rgb};
 /// Of glass, and of most plastics and varnishes.
 const DEFAULT_ETA: f64 = 1.5;
 
-/// What a share of light is.
+/// Expected value of a share of light, for messages.
 pub(super) const SHARES: &str = "a number or [r, g, b] within 0 to 1";
 
 /// The share of light that a surface reflects.

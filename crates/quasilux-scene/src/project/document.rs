@@ -74,7 +74,7 @@ impl<'a> Source<'a> {
         Self { file, text, line_starts, chars_before, position_unit_m: 1.0 }
     }
 
-    /// The same text, positions and lengths in this unit.
+    /// This text, with positions and lengths in another unit.
     pub(super) fn with_position_unit(self, position_unit_m: f64) -> Self {
         Self { position_unit_m, ..self }
     }

@@ -11,7 +11,7 @@ const KEYS: [&str; 8] =
 /// Largest flux that a project file may give, in lm; far from overflow.
 const MAX_FLUX_LM: f64 = 1e12;
 
-/// What `photometry` is.
+/// Expected value of `photometry`, for messages.
 const FILE_NAME: &str = "the name of an .ies, .ldt or .xml (TM-33) file";
 
 /// One luminaire.

@@ -7,7 +7,7 @@ use crate::bsdf::{Conductor, Dielectric, Diffuse, Mirror, Plastic, Translucent};
 use crate::{Bsdf, LoadError, Spanned};
 use glam::DVec3;
 
-/// What each kind may hold beside `kind`.
+/// Keys that each kind may hold beside `kind`.
 const KINDS: [(&str, &[&str]); 8] = [
     ("diffuse", &["reflectance", "transmittance"]),
     ("mirror", &["reflectance"]),
@@ -28,7 +28,7 @@ const MIN_ALPHA: f64 = 0.0004;
 /// More panes than any glazing has.
 const MAX_LAYERS: usize = 10;
 
-/// What `file` is.
+/// Expected value of `file`, for messages.
 const FILE_NAME: &str = "the name of a file with a measured BSDF";
 const LAYERS: &str = "files of the IGSDB from the front on, [\"outer.json\", { file = \
                       \"inner.json\", flipped = true }], at most 10";

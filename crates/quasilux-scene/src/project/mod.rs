@@ -65,12 +65,12 @@ pub(crate) struct Project {
     pub(crate) unit: LengthUnit,
     /// Of positions and lengths of the project file.
     pub(crate) position_unit: LengthUnit,
-    /// What lights give in use over what they give when new, in (0, 1].
+    /// Light that the lights give in use over what they give when new, in (0, 1].
     pub(crate) maintenance_factor: f64,
     pub(crate) materials: Vec<MaterialEntry>,
     pub(crate) luminaires: Vec<LuminaireEntry>,
     pub(crate) lights: Vec<LightEntry>,
-    /// What shines from outside.
+    /// Light from outside.
     pub(crate) outside: Option<OutsideEntry>,
     pub(crate) annual: AnnualEntry,
     pub(crate) blinds: Vec<BlindsEntry>,

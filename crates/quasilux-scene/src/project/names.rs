@@ -14,7 +14,7 @@ pub(super) struct Names {
     takers: HashMap<String, Taker>,
 }
 
-/// What has a name: `sensor "desk" on line 9`.
+/// Owner of a name: `sensor "desk" on line 9`.
 struct Taker {
     kind: &'static str,
     name: String,

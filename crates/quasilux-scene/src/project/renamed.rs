@@ -6,7 +6,7 @@
 pub struct RefusedKey {
     /// The name that is refused.
     pub old: &'static str,
-    /// What became of it, as messages go on after the name.
+    /// Replacement of the key, as messages go on after the name.
     pub now: &'static str,
 }
 

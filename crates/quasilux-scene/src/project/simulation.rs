@@ -180,7 +180,7 @@ pub(super) fn tolerance(value: &Value<'_>) -> Result<f64, LoadError> {
     share(value, "rel_tol", expected)
 }
 
-/// The same; `None` where it is off.
+/// A share as a number, or with a percent sign as text; `None` where it is off.
 fn unseen_tolerance(value: &Value<'_>) -> Result<Option<f64>, LoadError> {
     let expected =
         "a share above 0, at most 0.5, such as 0.05, or percent, such as \"5%\", or \"off\"";
@@ -206,8 +206,8 @@ fn share(value: &Value<'_>, key: &str, expected: &str) -> Result<f64, LoadError>
     }
 }
 
-/// What to ask where a tolerance is given as a bare number above one half: 1 stands for 100 %, and
-/// whoever writes it mostly means 1 %.
+/// Question to ask where a tolerance is given as a bare number above one half: 1 stands for 100 %,
+/// and whoever writes it mostly means 1 %.
 #[must_use]
 pub fn doubt_of_tolerance(share: f64) -> Option<String> {
     if share <= MAX_BARE_TOLERANCE {

@@ -17,7 +17,7 @@ const EXPECTED_MODEL: &str = "\"cie\", \"perez\", \"uniform\", \"weather\" or \"
 /// Most openings.
 const MAX_OPENINGS: usize = 10_000;
 
-/// What is outside, as far as the project file says it.
+/// Light from outside, as far as the project file describes it.
 #[derive(Clone, Debug)]
 pub(crate) struct OutsideEntry {
     pub(crate) light: OutsideLight,
@@ -38,7 +38,7 @@ pub(crate) struct OutsidePlaces {
     pub(crate) openings: Vec<Position>,
 }
 
-/// What shines outside.
+/// Sky and sun outside.
 #[derive(Clone, Debug)]
 pub(crate) enum OutsideLight {
     /// All of it is known.
@@ -47,7 +47,7 @@ pub(crate) enum OutsideLight {
         sky: Sky,
         /// The sun, where its disk shines.
         sun: Option<Sun>,
-        /// What they were made of.
+        /// Facts that they were made from.
         facts: SkyFacts,
     },
     /// A weather file says it.
@@ -58,7 +58,7 @@ pub(crate) enum OutsideLight {
         picture: PanoramaEntry,
         /// The sun, where its disk shines.
         sun: Option<Sun>,
-        /// What else is known.
+        /// Facts that are known beside the picture.
         facts: SkyFacts,
     },
 }
@@ -72,7 +72,7 @@ pub(crate) struct WeatherEntry {
     pub(crate) time: Option<Spanned<LocalTime>>,
     /// Whether the disk of the sun shines.
     pub(crate) is_direct: bool,
-    /// What `[site]` says of where it is.
+    /// Site as `[site]` gives it.
     pub(crate) site: Option<Spanned<Site>>,
 }
 
@@ -83,7 +83,7 @@ pub(crate) struct PanoramaEntry {
     pub(crate) file: Spanned<String>,
     /// The azimuth of its middle, clockwise from north.
     pub(crate) middle_azimuth_deg: f64,
-    /// What it is scaled to; `None` where its values are radiances.
+    /// Level that it is scaled to; `None` where its values are radiances.
     pub(crate) level: Option<Spanned<SkyLevel>>,
 }
 
@@ -132,7 +132,7 @@ pub(super) fn read(root: &Section<'_>) -> Result<Option<OutsideEntry>, LoadError
     }))
 }
 
-/// What shines by a model that needs no weather file.
+/// Sky and sun by a model that needs no weather file.
 fn known(
     root: &Section<'_>,
     section: &Section<'_>,

@@ -24,7 +24,7 @@ pub(super) struct PlacedSun {
     pub(super) time: Option<LocalTime>,
 }
 
-/// What is asked of the sun of a weather file.
+/// Time and direct light that are asked of the sun of a weather file.
 #[derive(Default)]
 pub(super) struct WeatherSun {
     pub(super) time: Option<Spanned<LocalTime>>,
