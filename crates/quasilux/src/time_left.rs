@@ -13,7 +13,7 @@ pub(crate) fn seconds_left(share: f64, elapsed_s: f64) -> Option<f64> {
     (share >= MIN_SHARE).then(|| (elapsed_s * (1.0 - share) / share).max(1.0))
 }
 
-/// The same in words.
+/// [`seconds_left`] in words.
 pub(crate) fn in_words(share: f64, elapsed_s: f64) -> String {
     let left_s = seconds_left(share, elapsed_s).map(|left_s| brief(left_s, 2));
     left_s.map_or_else(|| "time left not known yet".to_owned(), |left_s| format!("{left_s} s left"))

@@ -444,8 +444,8 @@ mod tests {
         assert_eq!(text, wanted);
         let first = PictureProgress { samples: 1, ..PictureProgress::default() };
         let text = picture_message("door", &first, 0.0, 3.0);
-        let wanted = "picture door: pass with 1 paths per pixel (previous 0), error ?, time left not \
-                      known yet";
+        let wanted = "picture door: pass with 1 paths per pixel (previous 0), error ?, time left \
+                      not known yet";
         assert_eq!(text, wanted);
     }
 

@@ -71,7 +71,7 @@ pub fn write(root: &Path) -> Result<(), String> {
     Ok(())
 }
 
-/// What is different in two lists, a line each.
+/// Differences of two lists, a line each.
 #[must_use]
 pub fn differences(listed: &str, found: &str) -> Vec<String> {
     let [listed, found] = [lines(listed), lines(found)];

@@ -105,7 +105,8 @@ impl TargetProgress {
         out.value(&self.ends);
     }
 
-    /// Takes in what [`Self::put`] put out, before the first sample; `coming` is the next checkpoint.
+    /// Takes in what [`Self::put`] put out, before the first sample; `coming` is the next
+    /// checkpoint.
     ///
     /// # Errors
     /// Where it is no progress of as many targets before that checkpoint.
