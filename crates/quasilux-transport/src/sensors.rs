@@ -23,7 +23,7 @@ pub(crate) fn targets(scene: &Scene) -> Vec<Target> {
             SensorShape::Grid(grid) if grid.quantity == Quantity::Mean => {
                 targets.extend((0..grid.cells()).map(|cell| Target::Cell { grid: *grid, cell }));
             }
-            _ => targets.extend(
+            SensorShape::Grid(_) | SensorShape::Points(_) => targets.extend(
                 sensor
                     .points()
                     .into_iter()

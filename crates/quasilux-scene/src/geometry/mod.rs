@@ -48,6 +48,25 @@ pub(crate) struct FileMaterial {
     pub(crate) file: String,
 }
 
+/// Format of a geometry file: a closed set, a module for each.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum GeometryFormat {
+    Obj,
+    Gltf,
+}
+
+impl GeometryFormat {
+    /// The format that a file's name ends with; `None` for no geometry file.
+    fn of_name(name: &str) -> Option<Self> {
+        let (_, extension) = name.rsplit_once('.')?;
+        match extension.to_ascii_lowercase().as_str() {
+            "obj" => Some(Self::Obj),
+            "gltf" | "glb" => Some(Self::Gltf),
+            _ => None,
+        }
+    }
+}
+
 /// Reads all geometry files of a project.
 pub(crate) fn read(
     project: &Project,
@@ -62,31 +81,27 @@ pub(crate) fn read(
             builder.finish_file(warnings)?;
             continue;
         }
-        let extension = file.value.rsplit_once('.').map(|(_, end)| end.to_ascii_lowercase());
-        let is_obj = match extension.as_deref() {
-            Some("obj") => true,
-            Some("gltf" | "glb") => false,
-            _ => {
-                let message = format!(
-                    "\"{}\" is no geometry file; expected a name that ends in .obj, .gltf or .glb",
-                    file.value
-                );
-                return Err(project.error(file.place, message));
-            }
-        };
+        let format = GeometryFormat::of_name(&file.value).ok_or_else(|| {
+            let message = format!(
+                "\"{}\" is no geometry file; expected a name that ends in .obj, .gltf or .glb",
+                file.value
+            );
+            project.error(file.place, message)
+        })?;
         let bytes = read_file(project, file, files, FileKind::Geometry)?;
         quasilux_text::refuse_web_page(&bytes).map_err(|error| {
             LoadError::new(&file.value, Some(error.position()), error.message())
         })?;
         builder.start_file(&file.value);
-        if is_obj {
-            obj::read(&bytes, files, &mut builder, warnings)?;
-        } else {
-            if project.up.is_none() {
-                let message = "glTF has y up, but is read with z up; set up = \"y\" in [scene]";
-                warnings.push(Warning::new(&file.value, None, message));
+        match format {
+            GeometryFormat::Obj => obj::read(&bytes, files, &mut builder, warnings)?,
+            GeometryFormat::Gltf => {
+                if project.up.is_none() {
+                    let message = "glTF has y up, but is read with z up; set up = \"y\" in [scene]";
+                    warnings.push(Warning::new(&file.value, None, message));
+                }
+                gltf::read(&bytes, files, &mut builder, warnings)?;
             }
-            gltf::read(&bytes, files, &mut builder, warnings)?;
         }
         builder.finish_file(warnings)?;
     }
