@@ -22,12 +22,14 @@
 //! - `world`: what rays meet
 //! - `lights`: emission and direct light, with the mirror images of point-like lights
 //! - `stats`: exact sums, intervals, and when a run may stop
+//! - `control`: the observer, limits and checkpoints, other processes
 //! - `importance`: where photons are split, ended and sent
 //! - `photon`: light tracing, illumination maps and caustics
 //! - `path`: path tracing from sensors and cameras
 //! - `annual`: the hours of a year
-//! - `estimator`: the estimators of sensor values, and the selection between them
+//! - `estimator`: the estimators of sensor values
 //! - `explain`: where the variance comes from
+//! - `pictures`: pictures of cameras, pass by pass
 //! - `run`: a run from start to result, in one piece or in parts
 //!
 //! Beside them: `codec`, states of a run as bytes; `context`, the scene made ready;

@@ -9,7 +9,7 @@
 //!
 //! sends it to the plane, and the ratio is the mean of this over the luminaire's flux.
 //!
-//! WarningKind: tables for the method (CIE 40, CIE 52, LiTG) put a finite number of luminaires at
+//! Deviation: tables for the method (CIE 40, CIE 52, LiTG) put a finite number of luminaires at
 //! stated places; their ratios differ by some hundredths.
 
 use crate::SphericalTable;

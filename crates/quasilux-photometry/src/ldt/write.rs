@@ -31,7 +31,7 @@ const FIELDS: [&str; 9] =
 ///   integrated flux over lamps' flux.
 /// - The luminaire's own dimensions and type are kept from an EULUMDAT file; otherwise they are
 ///   those of the luminous opening, and Ityp is 1 for rotational symmetry and 3 without.
-/// - Texts are cut to the lengths of their fields. WarningKind: numbers are as long as they must be
+/// - Texts are cut to the lengths of their fields. Deviation: numbers are as long as they must be
 ///   to read back exactly, where the format gives them 4 to 12 characters.
 ///
 /// Whatever else had to be changed is in [`Encoded::notes`].

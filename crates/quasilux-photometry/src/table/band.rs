@@ -5,7 +5,7 @@
 //! the end of the band that is nearer to a pole, `d` the width (Voloboy, Dmitriev and Kopylov 2003
 //! give the per-cell form). With the moments `J0 = int sin`, `J1 = int s sin` its integral is `a
 //! (J0 - J1/d) + b J1/d`: all terms are non-negative, so nothing cancels, however narrow the band
-//! and however near the pole. WarningKind: the printed formula, in `sin t - t cos t`, loses half of
+//! and however near the pole. Deviation: the printed formula, in `sin t - t cos t`, loses half of
 //! all digits there.
 
 use super::linear::linear_quantile;

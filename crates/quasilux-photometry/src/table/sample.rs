@@ -1,7 +1,7 @@
 //! The inverse transform of a spherical table, in its continuous form.
 //!
 //! Voloboy, Dmitriev and Kopylov (2003) choose a cell by its flux and invert inside it.
-//! WarningKind: theta comes from the marginal of the *whole band* and phi from the piecewise linear
+//! Deviation: theta comes from the marginal of the *whole band* and phi from the piecewise linear
 //! conditional at that theta. The density is the same, and the map from the unit square to
 //! directions is continuous, where the per-cell form jumps at each azimuth of the grid.
 

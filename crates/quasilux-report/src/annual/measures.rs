@@ -26,6 +26,21 @@ pub enum Measure {
     MedianDaylight,
 }
 
+/// How a measure is made of the hours, and with it the unit and the bounds that it has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum MeasureKind {
+    /// A share of the occupied hours.
+    ShareOfHours,
+    /// Share of the occupied hours, where hours with too little count in part.
+    ShareInPart,
+    /// Occupied hours, by the light straight from the sun.
+    SunlitHours,
+    /// A sum over all hours, in lx h.
+    Exposure,
+    /// An illuminance in lx that half of the hours with daylight exceed.
+    Median,
+}
+
 impl Measure {
     /// All measures, in the order of documents.
     pub const ALL: [Self; 9] = [
@@ -56,7 +71,7 @@ impl Measure {
         }
     }
 
-    /// What it is called in headings, with what illuminances are compared with.
+    /// Heading, with the illuminances in lx that hours are compared with.
     #[must_use]
     pub fn title(self, thresholds: &Thresholds) -> String {
         let &Thresholds { enough_lx, useful_lx: [least_lx, most_lx], sunlight_lx } = thresholds;
@@ -78,7 +93,24 @@ impl Measure {
     /// Whether it is a share of hours.
     #[must_use]
     pub fn is_share(self) -> bool {
-        !matches!(self, Self::SunlitHours | Self::Exposure | Self::MedianDaylight)
+        match self.kind() {
+            MeasureKind::ShareOfHours | MeasureKind::ShareInPart => true,
+            MeasureKind::SunlitHours | MeasureKind::Exposure | MeasureKind::Median => false,
+        }
+    }
+
+    pub(super) fn kind(self) -> MeasureKind {
+        match self {
+            Self::Autonomy
+            | Self::TooLittle
+            | Self::Supplementary
+            | Self::Autonomous
+            | Self::TooMuch => MeasureKind::ShareOfHours,
+            Self::ContinuousAutonomy => MeasureKind::ShareInPart,
+            Self::SunlitHours => MeasureKind::SunlitHours,
+            Self::Exposure => MeasureKind::Exposure,
+            Self::MedianDaylight => MeasureKind::Median,
+        }
     }
 
     /// The illuminances in lx, from the first to the second, of the hours that it counts; `None`
@@ -120,19 +152,26 @@ pub(super) fn measures(
         }
         occupied += 1.0;
         for ((sum, measure), counted) in sums.iter_mut().zip(Measure::ALL).zip(&counted) {
-            let lx = if measure == Measure::SunlitHours { straight_lx } else { lx };
-            *sum += match counted {
-                Some([from_lx, to_lx]) => f64::from(u8::from((*from_lx..*to_lx).contains(&lx))),
-                None => (lx / thresholds.enough_lx).min(1.0),
+            let counts = |lx: f64| {
+                let within = counted.is_some_and(|[from_lx, to_lx]| (from_lx..to_lx).contains(&lx));
+                f64::from(u8::from(within))
+            };
+            *sum += match measure.kind() {
+                MeasureKind::ShareOfHours => counts(lx),
+                MeasureKind::SunlitHours => counts(straight_lx),
+                MeasureKind::ShareInPart => (lx / thresholds.enough_lx).min(1.0),
+                MeasureKind::Exposure | MeasureKind::Median => 0.0,
             };
         }
     }
-    Measure::ALL.map(|measure| match measure {
-        Measure::SunlitHours => sums[measure.place()] * calendar.interval_h,
-        Measure::Exposure => exposure * calendar.interval_h,
-        Measure::MedianDaylight => median(&mut daylit_lx(calendar, illuminance_lx)),
-        _ if occupied > 0.0 => sums[measure.place()] / occupied,
-        _ => 0.0,
+    Measure::ALL.map(|measure| match measure.kind() {
+        MeasureKind::SunlitHours => sums[measure.place()] * calendar.interval_h,
+        MeasureKind::Exposure => exposure * calendar.interval_h,
+        MeasureKind::Median => median(&mut daylit_lx(calendar, illuminance_lx)),
+        MeasureKind::ShareOfHours | MeasureKind::ShareInPart if occupied > 0.0 => {
+            sums[measure.place()] / occupied
+        }
+        MeasureKind::ShareOfHours | MeasureKind::ShareInPart => 0.0,
     })
 }
 
@@ -146,15 +185,17 @@ pub(super) fn off_by_missing(
 ) -> Option<f64> {
     let unknown = calendar.count(|interval| !interval.is_known);
     let unknown_occupied = calendar.unknown_occupied as f64;
-    match measure {
-        _ if unknown == 0 => Some(0.0),
-        Measure::SunlitHours => Some(unknown_occupied * calendar.interval_h),
+    if unknown == 0 {
+        return Some(0.0);
+    }
+    match measure.kind() {
+        MeasureKind::SunlitHours => Some(unknown_occupied * calendar.interval_h),
         // None of them is taken to be brighter than the brightest known one.
-        Measure::Exposure => {
+        MeasureKind::Exposure => {
             let brightest_lx = illuminance_lx.iter().copied().reduce(f64::max)?;
             Some(unknown as f64 * brightest_lx * calendar.interval_h)
         }
-        Measure::MedianDaylight => {
+        MeasureKind::Median => {
             let mut daylit = daylit_lx(calendar, illuminance_lx);
             daylit.sort_by(f64::total_cmp);
             let half = daylit.len() / 2;
@@ -162,7 +203,7 @@ pub(super) fn off_by_missing(
             let high_lx = daylit.get(half + unknown)?;
             Some((value - low_lx).max(high_lx - value))
         }
-        _ => {
+        MeasureKind::ShareOfHours | MeasureKind::ShareInPart => {
             let known = calendar.count(|interval| interval.is_occupied) as f64;
             let share = unknown_occupied / (known + unknown_occupied).max(1.0);
             Some(share * value.max(1.0 - value))

@@ -1,6 +1,6 @@
 //! Pictures of a year: a map of each measure over each grid, and the hours of each sensor.
 
-use super::measures::Measure;
+use super::measures::{Measure, MeasureKind};
 use super::report::{AnnualReport, SensorPoints};
 use crate::PictureOf;
 use crate::number::{brief, count};
@@ -104,11 +104,11 @@ struct Unit {
 
 impl Unit {
     fn for_measure(measure: Measure) -> Self {
-        let (name, factor) = match measure {
-            Measure::SunlitHours => ("h", 1.0),
-            Measure::Exposure => ("klx h", 1e-3),
-            Measure::MedianDaylight => ("lx", 1.0),
-            _ => ("%", 100.0),
+        let (name, factor) = match measure.kind() {
+            MeasureKind::SunlitHours => ("h", 1.0),
+            MeasureKind::Exposure => ("klx h", 1e-3),
+            MeasureKind::Median => ("lx", 1.0),
+            MeasureKind::ShareOfHours | MeasureKind::ShareInPart => ("%", 100.0),
         };
         Self { name, factor }
     }

@@ -2,7 +2,7 @@
 //!
 //! Grid rule: EN 12464-1:2021, "illuminance grid": the largest cell size is p = 0.2 * 5^(log10 d)
 //! metres, at most 10 m, where d is the longer edge of the area, or the shorter one when the edges
-//! are as 2 to 1 or more. WarningKind: the count along an edge is edge / p rounded up, so that no
+//! are as 2 to 1 or more. Deviation: the count along an edge is edge / p rounded up, so that no
 //! cell is larger than p.
 
 /// Largest cell size of EN 12464-1 in m.

@@ -1,4 +1,9 @@
-//! Path tracing from sensors and cameras, with next-event estimation.
+//! Plain path tracing from sensors and cameras, with next-event estimation: one path in [`trace`],
+//! those that travel together in [`wave`], the paths of a target in [`path_batch`], of a sensor
+//! that keeps daylight by its direction in [`daylight_paths`].
+//!
+//! The default estimator traces eye paths of its own, which light subpaths are connected to
+//! (`estimator/bidirectional/eye_path.rs`).
 
 pub(crate) mod contribution;
 pub(crate) mod daylight;

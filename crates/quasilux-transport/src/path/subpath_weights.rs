@@ -6,9 +6,11 @@
 //! contribution `f / p_j` gets the weight `p_j / (p_0 + p_1 + ...)`. What it counts is therefore
 //! `f / (p_0 + p_1 + ...)`: never more than the contribution of the same way in plain path tracing,
 //! nor than that of a plain photon that is connected to the sensor, however badly the technique
-//! suits the scene. No survey and no pilot enters these densities.
+//! suits the scene. No pilot enters these densities, and of
+//! the survey the number of copies that leave a place, which both subpaths know.
 //!
-//! The sums over all techniques are kept as two numbers a vertex, after I. Georgiev, "Implementing
+//! The sums over all techniques are kept as two numbers a vertex, and the part of the second that
+//! came by copies, after I. Georgiev, "Implementing
 //! vertex connection and merging", Saarland University 2012, section 4 (without merging): with `p`
 //! the density of the vertex as its own subpath makes it, and all densities of the techniques that
 //! leave it to the other subpath over that of the technique that does not,
@@ -17,9 +19,10 @@
 //! sum over the shorter subpaths = reverse density * (vcm + vc * density back from the vertex)
 //! ```
 //!
-//! Russian roulette and the choice of one connection among several are left out of the densities:
-//! the weights of a way still sum up to one. A connection that is chosen counts the sum of those
-//! that it stands for, each bounded as above: at most as many as its light subpath has vertices.
+//! Russian roulette is part of the densities (`Bsdf::survival_pdf_sr`); the choice of one
+//! connection among several is left out of them: the weights of a way still sum up to one. A
+//! connection that is chosen counts the sum of those that it stands for, each bounded as above: at
+//! most as many as its light subpath has vertices.
 
 /// Weights of the techniques that leave vertices of a subpath to the other one.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

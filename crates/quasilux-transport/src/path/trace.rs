@@ -1,13 +1,20 @@
 //! Path tracing with next-event estimation and Russian roulette (Kajiya 1986): one path, from a
-//! sensor toward the lights.
+//! sensor or a pixel toward the lights.
 //!
 //! The illuminance at x is `E(x) = integral of L(x, w) cos dw`. A cosine-distributed direction has
-//! density cos / pi, so the light that arrives along it counts pi-fold. At each diffuse surface the
-//! light that comes there straight from the lights is estimated on the spot (next-event
-//! estimation), and the path goes on for the rest. A path may end on an illumination map instead:
-//! the map's value stands for the rest.
+//! density cos / pi, so the light that arrives along it counts pi-fold. At each surface that is
+//! not specular the light that comes there straight from the lights is estimated on the spot
+//! (next-event estimation), and the path goes on for the rest. A path may end on an illumination
+//! map instead: the map's value stands for the rest.
 //!
-//! Read on at `direct_light` and `map_end` (ends on maps).
+//! Many paths travel together (`wave`): all rays of a step are traced at once ([`Path::query`],
+//! [`Path::arrive`]), and so are the shadow rays that the paths asked for. What they see comes by
+//! [`Path::on_visibility`], and is added where the next ray of the path arrives. The light of area
+//! lights and from outside is weighed against the direction in which the path goes on by the power
+//! heuristic (Veach and Guibas 1995): `add_emitted`, `outside`.
+//!
+//! Read on at `direct_light`, `specular_way` (area lights over mirrors), `outside` (sky and sun)
+//! and `map_end` (ends on maps).
 
 mod direct_light;
 mod map_end;

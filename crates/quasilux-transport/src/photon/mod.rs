@@ -1,5 +1,9 @@
-//! Light tracing: a photon is emitted and scattered in `trace`, in waves in `wave`, and seen by a
-//! [`receiver`]; illumination maps are in `map`, caustics in `caustics`.
+//! Light tracing: a photon is emitted and scattered in [`trace`], in waves in [`wave`], and seen by
+//! a [`receiver`]; [`batch`] traces those of some indices in the order of [`order`]. Illumination
+//! maps are in [`map`], caustics in [`caustics`], photons that begin where light lands in
+//! [`first_shot`] and [`lit_cells`].
+//!
+//! The light subpaths of the default estimator are in `estimator/bidirectional/light_subpath.rs`.
 
 pub(crate) mod batch;
 pub(crate) mod caustics;

@@ -5,8 +5,8 @@
 //! them, [`point_status`] what a point waits for, [`caveat`] what else a reader must know,
 //! [`certified`] intervals that hold for any number of samples, [`sequential`] what looking several
 //! times costs them, [`schedule`] and [`tolerance`] what the decision to stop needs
-//! (`run::simulate` takes it), [`convergence`] the prediction of the end, [`efficiency`] the choice
-//! between estimators.
+//! (`run::simulate` takes it), [`convergence`] the prediction of the end, [`efficiency`] what
+//! surveys and pilots decide by.
 
 pub(crate) mod caveat;
 pub mod certified;
