@@ -99,7 +99,7 @@ fn lines(list: &str) -> BTreeSet<String> {
 /// Whether a literal is a text for people: words, and not a name, a format or a piece of a file.
 /// `is_message` where it is printed for sure, so that one word is enough.
 fn is_text(literal: &str, is_message: bool) -> bool {
-    let is_markup = literal.trim_start().starts_with('<');
+    let is_markup = literal.trim_start().starts_with('<') || literal.contains("=\"{");
     let plain = without_placeholders(literal);
     let trimmed =
         plain.split_whitespace().map(|word| word.trim_matches(|c: char| !c.is_alphanumeric()));
@@ -144,6 +144,8 @@ mod tests {
             ("workplane", true, false),
             ("{a} {b}", true, false),
             ("<text x=\"1\" y=\"2\">the text", true, false),
+            ("fill=\"none\" width=\"{width}\" of a line", true, false),
+            ("set kind = \"pane\" for it", false, true),
             ("M {} {} L {} {}", false, false),
         ] {
             assert_eq!(is_text(literal, is_message), expected, "{literal}");

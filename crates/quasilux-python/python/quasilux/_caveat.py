@@ -24,9 +24,10 @@ class Caveat:
     Examples
     --------
     >>> import quasilux
-    >>> result = quasilux.simulate("examples/cube/cube.toml", samples=16, replicates=1)
+    >>> cube = "examples/cube/cube.toml"
+    >>> result = quasilux.simulate(cube, estimator="bidirectional-map", rel_tol=0.05)
     >>> [caveat.kind for caveat in result.caveats]
-    ['one_replicate']
+    ['means_over_map_elements']
     """
 
     kind: str
