@@ -1,7 +1,7 @@
-//! `docs/experiments.md` from the files of the experiments, so that text and figures cannot drift
+//! `research/experiments.md` from the files of the experiments, so that text and figures cannot drift
 //! apart.
 //!
-//! `docs/experiments/page.md` is the text. In it `{{table NAME}}` stands for the tables and claims
+//! `research/experiments/page.md` is the text. In it `{{table NAME}}` stands for the tables and claims
 //! that the experiment wrote, and `{{NAME: COLUMN where KEY=VALUE, KEY=VALUE as DIGITS}}` for one
 //! figure of its CSV file, in the one row where all keys have these values; `as DIGITS %` makes a
 //! share per cent. What an experiment writes for people names the CSV file written with it, and
@@ -14,14 +14,14 @@ use xtask::workspace::Failure;
 
 /// Writes the page.
 pub(crate) fn write(root: &Path) -> Result<(), Failure> {
-    let path = root.join("docs/experiments.md");
+    let path = root.join("research/experiments.md");
     std::fs::write(&path, page(root)?).map_err(|error| format!("{}: {error}", path.display()))?;
     println!("xtask: wrote {}", path.display());
     Ok(())
 }
 
 fn page(root: &Path) -> Result<String, Failure> {
-    let folder = root.join("docs/experiments");
+    let folder = root.join("research/experiments");
     let read = |name: &str| {
         let path = folder.join(name);
         std::fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))
@@ -130,10 +130,10 @@ mod tests {
 
     #[test]
     fn the_committed_page_is_what_the_generator_writes() {
-        let committed = std::fs::read_to_string(workspace_root().join("docs/experiments.md"));
+        let committed = std::fs::read_to_string(workspace_root().join("research/experiments.md"));
         assert!(
             committed.is_ok_and(|committed| committed == page(&workspace_root()).unwrap()),
-            "docs/experiments.md differs from its sources: run `cargo xtask experiments`"
+            "research/experiments.md differs from its sources: run `cargo xtask experiments`"
         );
     }
 

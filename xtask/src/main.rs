@@ -3,7 +3,7 @@
 //! [`steps`] is the test command, [`python`], [`examples`], [`cluster`] and [`documents`] its last
 //! steps, [`office`] and [`weather`] the generators behind `examples/office/` and
 //! `examples/daylight-office/`, [`cie171`] and [`octant`] those of cases in `validation/`,
-//! [`experiments`] that of `docs/experiments.md`, [`gauntlet`] builds and runs `quasilux-gauntlet`.
+//! [`experiments`] that of `research/experiments.md`, [`gauntlet`] builds and runs `quasilux-gauntlet`.
 //! The rules that no compiler checks are in
 //! `tests/architecture/`.
 
@@ -58,7 +58,7 @@ cargo xtask office         write examples/office/ from its generator
 cargo xtask weather        write the weather of examples/daylight-office/ from its generator
 cargo xtask cie171         write the cases of CIE 171:2006 in validation/ from their generator
 cargo xtask gauntlet ..    hard rooms at random against a reference; --help lists its options
-cargo xtask experiments    write docs/experiments.md from what the experiments wrote
+cargo xtask experiments    write research/experiments.md from what the experiments wrote
 cargo xtask pictures       write the pictures of the documentation from the commands beside them
 cargo xtask help           this text
 ";

@@ -274,7 +274,8 @@ mod tests {
         let pages =
             pages.map(|page| page.expect("a page").file_name().into_string().expect("UTF-8"));
         let pages = pages.filter(|name| name.ends_with(".md")).map(|name| format!("docs/{name}"));
-        let documents = ["README.md", "CONTRIBUTING.md"].map(str::to_owned);
+        let documents = ["README.md", "CONTRIBUTING.md", "research/experiments.md"];
+        let documents = documents.map(str::to_owned);
         let examples = ["cluster", "cornell", "corridor", "cube", "diffuser", "office"];
         let examples = examples.map(|name| format!("examples/{name}/README.md"));
         let own = "crates/quasilux/README.md".to_owned();

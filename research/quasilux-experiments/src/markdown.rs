@@ -76,8 +76,7 @@ mod tests {
 
     #[test]
     fn stored_pages_are_filled() {
-        let folder =
-            std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/experiments");
+        let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../experiments");
         for experiment in &crate::EXPERIMENTS {
             let path = folder.join(format!("{}.md", experiment.name));
             let page = std::fs::read_to_string(&path).expect("a stored page");

@@ -20,6 +20,9 @@ use xtask::workspace::Failure;
 /// Folders that commands read.
 const COPIED: [&str; 2] = ["examples", "validation"];
 
+/// Documents beside those of whole folders.
+const ALONE: [&str; 3] = ["README.md", "research/experiments.md", "validation/README.md"];
+
 /// What project files in documents call the reader's own geometry: a room of 4 m x 4 m x 3 m.
 const ROOM: [&str; 2] = [
     "room.obj",
@@ -62,7 +65,7 @@ pub(crate) fn draw(root: &Path) -> Result<(), Failure> {
 
 /// The documents that show commands or project files.
 fn documents(root: &Path) -> Result<Vec<String>, Failure> {
-    let mut names = vec!["README.md".to_owned(), "validation/README.md".to_owned()];
+    let mut names = ALONE.map(str::to_owned).to_vec();
     for (folder, ending) in [("docs", ""), ("examples", "/README.md"), ("crates", "/README.md")] {
         let entries = fs::read_dir(root.join(folder)).map_err(|e| format!("{folder}: {e}"))?;
         let name = |entry: fs::DirEntry| entry.file_name().to_string_lossy().into_owned();

@@ -29,7 +29,7 @@ fn manifests() -> Vec<(String, toml::Table)> {
         .iter()
         .flat_map(|folder| fs::read_dir(workspace().join(folder)).unwrap())
         .map(|entry| entry.unwrap().path())
-        .filter(|path| path.is_dir())
+        .filter(|path| path.join("Cargo.toml").is_file())
         .map(|path| {
             let text = fs::read_to_string(path.join("Cargo.toml")).unwrap();
             (path.file_name().unwrap().to_str().unwrap().to_owned(), text.parse().unwrap())

@@ -24,7 +24,8 @@ const STAND_INS: [&str; 3] = ["NAME", "TARGET", "RULE"];
 const MADE: [&str; 1] = ["fuzz/artifacts/"];
 /// Pages whose links are not of their own folder: a text that another page is made of, and a site
 /// whose links its own tests follow.
-const LINKED_ELSEWHERE: [&str; 2] = ["docs/experiments/page.md", "crates/quasilux-python/docs/"];
+const LINKED_ELSEWHERE: [&str; 2] =
+    ["research/experiments/page.md", "crates/quasilux-python/docs/"];
 
 /// Links of a page of Markdown that lead nowhere. `path` is that of the page below `root`.
 pub(crate) fn broken_links(root: &Path, path: &str, page: &str) -> Vec<Violation> {
