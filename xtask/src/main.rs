@@ -3,7 +3,8 @@
 //! [`steps`] is the test command, [`python`], [`examples`], [`cluster`] and [`documents`] its last
 //! steps, [`office`] and [`weather`] the generators behind `examples/office/` and
 //! `examples/daylight-office/`, [`cie171`] and [`octant`] those of cases in `validation/`,
-//! [`experiments`] that of `research/experiments.md`, [`gauntlet`] builds and runs `quasilux-gauntlet`.
+//! [`experiments`] that of `research/experiments.md`, [`reference`] that of
+//! `docs/project-reference.md`, [`gauntlet`] builds and runs `quasilux-gauntlet`.
 //! The rules that no compiler checks are in
 //! `tests/architecture/`.
 
@@ -21,6 +22,7 @@ mod octant;
 mod office;
 mod prediction;
 mod python;
+mod reference;
 mod same_bits;
 mod steps;
 mod weather;
@@ -59,6 +61,7 @@ cargo xtask weather        write the weather of examples/daylight-office/ from i
 cargo xtask cie171         write the cases of CIE 171:2006 in validation/ from their generator
 cargo xtask gauntlet ..    hard rooms at random against a reference; --help lists its options
 cargo xtask experiments    write research/experiments.md from what the experiments wrote
+cargo xtask reference      write the tables of docs/project-reference.md from `quasilux keys`
 cargo xtask pictures       write the pictures of the documentation from the commands beside them
 cargo xtask help           this text
 ";
@@ -85,6 +88,7 @@ fn main() -> ExitCode {
         ["gauntlet", ref options @ ..] => gauntlet::run(&workspace_root(), options),
         ["cie171"] => cie171::write(&workspace_root()),
         ["experiments"] => experiments::write(&workspace_root()),
+        ["reference"] => reference::write(&workspace_root()),
         ["pictures"] => documents::draw(&workspace_root()),
         ["octant"] => octant::write(&workspace_root()),
         ["weather"] => weather::write(&workspace_root()),

@@ -27,6 +27,7 @@ use clap::{Args, CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
 use quasilux_experiments::{EXPERIMENTS, Experiment};
 use quasilux_sampling::Sequence;
+use quasilux_scene::project::{KeyTable, reference};
 use quasilux_transport::{EstimatorKind, IntervalKind, ToleranceOn, UnseenTolerance};
 use std::path::PathBuf;
 use std::sync::LazyLock;
@@ -71,6 +72,8 @@ pub(crate) enum Command {
     Merge(MergeArguments),
     /// Continue from a checkpoint
     Resume(ResumeArguments),
+    /// Print the keys of the project file, with what they take and what holds without them
+    Keys(KeysArguments),
     /// Print the script with which a shell completes commands, options and names
     Completions(CompletionsArguments),
     /// Print a page of the manual in roff, for `man`
@@ -235,6 +238,23 @@ pub(crate) struct ExperimentArguments {
 fn experiments() -> PossibleValuesParser {
     let name = |it: &Experiment| PossibleValue::new(it.name).help(it.shows);
     PossibleValuesParser::new(EXPERIMENTS.iter().map(name))
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct KeysArguments {
+    /// The section whose keys are wanted, such as sensors [default: all of them]
+    #[arg(value_name = "SECTION", value_parser = PossibleValuesParser::new(sections()))]
+    pub(crate) section: Option<String>,
+    /// Print tables in Markdown
+    #[arg(long)]
+    pub(crate) markdown: bool,
+}
+
+/// The names of all sections that have keys, each once.
+fn sections() -> Vec<&'static str> {
+    let mut names: Vec<&str> = reference().iter().map(KeyTable::name).collect();
+    names.dedup();
+    names
 }
 
 #[derive(Debug, Args)]

@@ -70,7 +70,7 @@ impl Line {
 
 /// Runs the program in a folder and returns what it printed, if it ended with results: exit code 0,
 /// or 3 where a limit came before the tolerance.
-pub(super) fn output(
+pub(crate) fn output(
     program: &Path,
     folder: &Path,
     arguments: &[String],
@@ -105,7 +105,7 @@ fn expanded(folder: &Path, word: &str) -> Vec<String> {
 }
 
 /// Builds the program and says where it is.
-pub(super) fn build(root: &Path) -> Result<PathBuf, Failure> {
+pub(crate) fn build(root: &Path) -> Result<PathBuf, Failure> {
     let output = Command::new("cargo")
         .args(["build", "--profile", "ci", "--package", "quasilux"])
         .args(["--quiet", "--message-format", "json-render-diagnostics"])

@@ -6,7 +6,7 @@
 //! Examples in Rust are tests of their crates.
 
 mod blocks;
-mod commands;
+pub(crate) mod commands;
 mod output;
 mod pictures;
 

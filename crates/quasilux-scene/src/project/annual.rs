@@ -1,6 +1,7 @@
 //! `[annual]`: what a year is judged by.
 
 use super::document::Section;
+use super::keys::{Key, optional};
 use super::outside::{OutsideEntry, OutsideLight};
 use crate::annual::{Thresholds, WORKING_HOURS};
 use crate::{LoadError, Spanned};
@@ -8,15 +9,46 @@ use quasilux_sky::WEEKDAYS;
 use quasilux_text::Position;
 use std::ops::Range;
 
-const KEYS: [&str; 8] = [
-    "occupied_h",
-    "weekends",
-    "first_day",
-    "schedule",
-    "column",
-    "enough_lx",
-    "useful_lx",
-    "sunlight_lx",
+pub(super) const KEYS: [Key; 8] = [
+    optional("occupied_h", "`[from, to]`, hours, 0 to 24", "`[8, 18]`", "When people are there"),
+    optional(
+        "weekends",
+        "`true` or `false`",
+        "`true`",
+        "Whether they are there on Saturdays and Sundays",
+    ),
+    optional(
+        "first_day",
+        "`\"monday\"` to `\"sunday\"`",
+        "the weather file's",
+        "The day of the week of 1 January",
+    ),
+    optional(
+        "schedule",
+        "file name",
+        "none",
+        "A CSV file with a row for each interval of the weather file, in place of `occupied_h`, \
+         `weekends` and `first_day`",
+    ),
+    optional(
+        "column",
+        "text",
+        "none",
+        "The column of `schedule` that is 1 while people are there, 0 else",
+    ),
+    optional("enough_lx", "lx, above 0", "`300`", "What sDA and DA ask for"),
+    optional(
+        "useful_lx",
+        "`[least, most]`, lx",
+        "`[100, 3000]`",
+        "The limits of useful daylight (UDI); `enough_lx` lies between them",
+    ),
+    optional(
+        "sunlight_lx",
+        "lx, above 0",
+        "`1000`",
+        "Direct sun above which an hour counts for ASE",
+    ),
 ];
 
 /// Terms that a year is judged by, as far as the project file says them.

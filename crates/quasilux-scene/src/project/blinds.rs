@@ -2,6 +2,7 @@
 //! closed, and when that is.
 
 use super::document::Section;
+use super::keys::{Key, optional};
 use super::materials::{self, MaterialEntry};
 use super::names::zone_name;
 use super::{
@@ -10,8 +11,56 @@ use super::{
 };
 use crate::{LoadError, Spanned};
 
-const KEYS: [&str; 8] =
-    ["name", "geometry", "materials", "states", "control", "sensor", "schedule", "column"];
+const GEOMETRY: Key = optional(
+    "geometry",
+    "list of file names",
+    "none",
+    "OBJ, glTF or GLB files that are there beside those of `[scene]` while they are closed",
+);
+const MATERIALS: Key = optional(
+    "materials",
+    "tables, as `[materials.NAME]`",
+    "none",
+    "What materials of the geometry are while they are closed",
+);
+pub(super) const KEYS: [Key; 8] = [
+    optional("name", "text", "`\"blinds\"` if there is but one group", "The name of the group"),
+    GEOMETRY,
+    MATERIALS,
+    optional(
+        "states",
+        "tables `[[blinds.states]]`",
+        "one, `closed`",
+        "Positions of the group beside open, at most 16, from open to closed; then `geometry` \
+         and `materials` stand in each of them",
+    ),
+    optional(
+        "control",
+        "`\"lm83\"` or `\"schedule\"`",
+        "`\"lm83\"`",
+        "Closed while more than 2 % of the points get over 1000 lx straight from the sun, or by \
+         a schedule",
+    ),
+    optional("sensor", "name of a sensor", "all sensors", "Whose points count, with `\"lm83\"`"),
+    optional(
+        "schedule",
+        "file name",
+        "none",
+        "With `\"schedule\"`: a CSV file with a row for each interval of the weather file",
+    ),
+    optional(
+        "column",
+        "text",
+        "none",
+        "The column of `schedule`: 0 while they are open, 1 while they are closed; or numbers or \
+         names of states",
+    ),
+];
+pub(super) const STATE_KEYS: [Key; 3] = [
+    optional("name", "text", "`\"closed\"` if there is but one", "The name of the state"),
+    GEOMETRY,
+    MATERIALS,
+];
 const EXPECTED_GEOMETRY: &str = "[\"slats.obj\"]: files that are there while they are closed";
 /// Most groups, and positions of a group beside open.
 const MAX_GROUPS: usize = 64;
@@ -88,7 +137,7 @@ fn group(
     }
     let mut positions: Vec<PositionEntry> = Vec::new();
     for state in &states {
-        state.only(&["name", "geometry", "materials"], &[])?;
+        state.only(&STATE_KEYS, &[])?;
         let names = positions.iter().map(|position| position.name.as_str());
         let name = zone_name(state, "closed", states.len(), names.chain(["open"]))?;
         positions.push(position(state, name, open)?);

@@ -1,14 +1,46 @@
 //! `[[cameras]]`: where pictures are taken from.
 
 use super::document::{Section, Value};
+use super::keys::{DIRECTION, Key, POSITION, optional, required};
 use super::names::Names;
 use super::simulation::tolerance;
 use crate::{Camera, LoadError};
 use glam::DVec3;
 use quasilux_text::Position;
 
-const KEYS: [&str; 8] =
-    ["name", "position", "target", "up", "vertical_fov_deg", "resolution", "samples", "rel_tol"];
+pub(super) const KEYS: [Key; 8] = [
+    required("name", "text", "Also the name of its pictures; no other camera or sensor has it"),
+    required("position", POSITION, "Where it stands"),
+    required("target", POSITION, "The point in the middle of the picture"),
+    optional(
+        "up",
+        DIRECTION,
+        "`[0, 0, 1]`",
+        "What points upward in the picture; not along the line of sight",
+    ),
+    required(
+        "vertical_fov_deg",
+        "degrees, between 0 and 180",
+        "The angle between the upper and the lower edge of the picture",
+    ),
+    required(
+        "resolution",
+        "`[width, height]`, 1 to 16384 each",
+        "Pixels, which are square; all cameras have at most 2^24",
+    ),
+    optional(
+        "samples",
+        "1 to 2^32",
+        "`--samples`, or what `rel_tol` takes",
+        "Paths a pixel in each replicate; beside `rel_tol`, at most",
+    ),
+    optional(
+        "rel_tol",
+        "share or per cent, as in `[simulation]`",
+        "`0.05` where no number of samples is given",
+        "How well the picture is to be known: half-width over luminance",
+    ),
+];
 
 /// Most pixels along an edge.
 const MAX_EDGE: u64 = 16_384;

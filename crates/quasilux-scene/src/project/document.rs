@@ -3,6 +3,7 @@
 //! Sections of the project file are read through [`Section`] and [`Value`]: each question says
 //! what is expected, so that each refusal can.
 
+use super::keys::Key;
 use super::renamed::RefusedKey;
 use crate::{LoadError, Spanned};
 use glam::DVec3;
@@ -126,7 +127,13 @@ impl<'a> Section<'a> {
     }
 
     /// Refuses keys that are neither in `known` nor in `planned`; the latter are not built yet.
-    pub(super) fn only(&self, known: &[&str], planned: &[&str]) -> Result<(), LoadError> {
+    pub(super) fn only(&self, known: &[Key], planned: &[&str]) -> Result<(), LoadError> {
+        let known: Vec<&str> = known.iter().map(|key| key.name).collect();
+        self.only_names(&known, planned)
+    }
+
+    /// The same of names that no table holds.
+    pub(super) fn only_names(&self, known: &[&str], planned: &[&str]) -> Result<(), LoadError> {
         for Entry { key, .. } in self.entries() {
             let name = key.value;
             let refuse =

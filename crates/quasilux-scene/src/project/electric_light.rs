@@ -2,10 +2,22 @@
 //! year.
 
 use super::document::Section;
+use super::keys::{Key, optional, required};
 use super::names::zone_name;
 use crate::{LoadError, Spanned};
 
-const KEYS: [&str; 5] = ["name", "power_w", "min_power_w", "target_lx", "sensor"];
+pub(super) const KEYS: [Key; 5] = [
+    optional("name", "text", "`\"electric_light\"` if there is but one", "The name of the zone"),
+    required("power_w", "W, above 0", "The power of all its lamps without daylight"),
+    optional(
+        "min_power_w",
+        "W, 0 to `power_w`",
+        "`0`",
+        "The power of the dimmed lamps when daylight is enough",
+    ),
+    required("target_lx", "lx, above 0", "The illuminance to which the lamps fill up daylight"),
+    required("sensor", "name of a sensor", "The sensor whose average counts"),
+];
 /// Most zones.
 const MAX_ZONES: usize = 1000;
 

@@ -1,11 +1,37 @@
 //! `[[lights]]`: isotropic points and emitting materials.
 
 use super::document::Section;
+use super::keys::{Key, POSITION, optional, required};
 use crate::light::PointLight;
 use crate::{LoadError, Spanned};
 use quasilux_text::Position;
 
-const AREA_KEYS: [&str; 4] = ["kind", "material", "luminance_cd_m2", "flux_lm"];
+const KIND: Key = required("kind", "`\"point\"` or `\"area\"`", "Which of the two it is");
+pub(super) const POINT_KEYS: [Key; 3] = [
+    KIND,
+    required("position", POSITION, "Where it is"),
+    required("intensity_cd", "cd, 0 to 1e60", "Its luminous intensity, the same in all directions"),
+];
+pub(super) const AREA_KEYS: [Key; 4] = [
+    KIND,
+    required(
+        "material",
+        "name of a material",
+        "Every triangle of this material in the geometry shines from its front side",
+    ),
+    optional(
+        "luminance_cd_m2",
+        "cd/m2, 0 to 1e60",
+        "from `flux_lm`",
+        "Its luminance, the same in all directions; this or `flux_lm`",
+    ),
+    optional(
+        "flux_lm",
+        "lm, 0 to 1e60",
+        "from `luminance_cd_m2`",
+        "The luminous flux of all its triangles together",
+    ),
+];
 
 /// Largest intensity, luminance or flux that a project file may give; far from overflow.
 const MAX_LIGHT: f64 = 1e60;
@@ -49,7 +75,7 @@ fn light(section: &Section<'_>) -> Result<LightEntry, LoadError> {
 }
 
 fn point(section: &Section<'_>) -> Result<LightEntry, LoadError> {
-    section.only(&["kind", "position", "intensity_cd"], &[])?;
+    section.only(&POINT_KEYS, &[])?;
     let position = "a position [x, y, z] in m";
     let position = section.require("position", position)?.position_m(position)?;
     let intensity = "a luminous intensity in cd, at least 0";

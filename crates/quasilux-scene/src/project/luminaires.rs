@@ -1,13 +1,46 @@
 //! `[[luminaires]]`: measured photometry at a place.
 
 use super::document::{Section, Value};
+use super::keys::{DIRECTION, Key, POSITION, optional, required};
 use crate::light::{Placement, PlacementError};
 use crate::{LoadError, Spanned};
 use glam::{DMat3, DVec3};
 use quasilux_text::Position;
 
-const KEYS: [&str; 8] =
-    ["photometry", "position", "as", "aim", "c0", "rotation_deg", "dimming", "flux_lm"];
+pub(super) const KEYS: [Key; 8] = [
+    required(
+        "photometry",
+        "file name",
+        "The luminaire's IES (`.ies`), EULUMDAT (`.ldt`) or TM-33 (`.xml`) file",
+    ),
+    required("position", POSITION, "Its photometric centre"),
+    optional(
+        "as",
+        "`\"point\"` or `\"area\"`",
+        "`\"point\"`",
+        "Whether it shines from a point or from the luminous opening that its file describes",
+    ),
+    optional("aim", DIRECTION, "`[0, 0, -1]`", "Where gamma = 0 of the file points"),
+    optional(
+        "c0",
+        DIRECTION,
+        "`[1, 0, 0]`",
+        "Where the half-plane C = 0 of the file points; not along `aim`",
+    ),
+    optional("rotation_deg", "degrees", "`0`", "Turns it about `aim`, from C0 toward C90"),
+    optional(
+        "dimming",
+        "factor, 0 to 1e9",
+        "`1`",
+        "Of the light that its file gives; not beside `flux_lm`",
+    ),
+    optional(
+        "flux_lm",
+        "lm, 0 to 1e12",
+        "the file's",
+        "Scales the file to this flux of the luminaire",
+    ),
+];
 /// Largest flux that a project file may give, in lm; far from overflow.
 const MAX_FLUX_LM: f64 = 1e12;
 

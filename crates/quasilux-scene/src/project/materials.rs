@@ -2,21 +2,143 @@
 
 use super::coefficients::{eta, index, reflectance, shares};
 use super::document::{Entry, Section, Value};
+use super::keys::{DIRECTION, Key, SHARES, optional, required};
 use super::pane;
 use crate::bsdf::{Conductor, Dielectric, Diffuse, Mirror, Plastic, Translucent};
 use crate::{Bsdf, LoadError, Spanned};
 use glam::DVec3;
 
-/// Keys that each kind may hold beside `kind`.
-const KINDS: [(&str, &[&str]); 8] = [
-    ("diffuse", &["reflectance", "transmittance"]),
-    ("mirror", &["reflectance"]),
-    ("dielectric", &["eta"]),
-    ("pane", &["eta", "transmittance", "reflectance"]),
-    ("glazing", &["layers"]),
-    ("conductor", &["reflectance", "roughness", "alpha"]),
-    ("plastic", &["reflectance", "eta", "roughness", "alpha"]),
-    ("bsdf", &["file", "up"]),
+/// What each kind may hold.
+pub(super) struct Kind {
+    name: &'static str,
+    /// The line that asks for it.
+    pub(super) line: &'static str,
+    pub(super) about: &'static str,
+    pub(super) keys: &'static [Key],
+}
+
+const KIND: Key =
+    optional("kind", "name of a kind", "`\"diffuse\"`", "How the surface scatters light");
+const REFLECTANCE: Key = required("reflectance", SHARES, "The share of light that it reflects");
+const ETA: Key = optional("eta", "0.2 to 5, not 1", "`1.5`", "Its refractive index");
+const FROM_ALPHA: &str = "the square root of `alpha`";
+const ROUGHNESS: Key = optional(
+    "roughness",
+    "0.02 to 1",
+    FROM_ALPHA,
+    "The square root of `alpha`: equal steps look alike; one of the two is given",
+);
+const ALPHA: Key = optional(
+    "alpha",
+    "0.0004 to 1",
+    "`roughness` squared",
+    "Width of the distribution of slopes (GGX)",
+);
+pub(super) const KINDS: [Kind; 8] = [
+    Kind {
+        name: "diffuse",
+        line: "kind = \"diffuse\"",
+        about: "A Lambertian surface, or a translucent sheet; both shares make 1 at most",
+        keys: &[
+            KIND,
+            REFLECTANCE,
+            optional(
+                "transmittance",
+                SHARES,
+                "`0`",
+                "The share of light that comes out of its other side",
+            ),
+        ],
+    },
+    Kind {
+        name: "mirror",
+        line: "kind = \"mirror\"",
+        about: "A perfect mirror",
+        keys: &[KIND, REFLECTANCE],
+    },
+    Kind {
+        name: "dielectric",
+        line: "kind = \"dielectric\"",
+        about: "A clear closed body, its triangles facing outward: reflection and refraction",
+        keys: &[KIND, ETA],
+    },
+    Kind {
+        name: "pane",
+        line: "kind = \"pane\"",
+        about: "A flat pane drawn as one sheet: light goes straight through or is mirrored",
+        keys: &[
+            KIND,
+            ETA,
+            optional(
+                "transmittance",
+                "share, `[r, g, b]`, or table `[[0, share], ..., [90, share]]`",
+                "that of a clear pane",
+                "At normal incidence, or by the angle of incidence in degrees; a table goes \
+                 without `eta`",
+            ),
+            optional(
+                "reflectance",
+                "table `[[0, share], ..., [90, share]]`",
+                "`0` beside a table, else from `eta`",
+                "By the angle of incidence, beside a table of `transmittance`",
+            ),
+        ],
+    },
+    Kind {
+        name: "glazing",
+        line: "kind = \"glazing\"",
+        about: "The glass of a window: panes behind one another, from the front of the facets on",
+        keys: &[
+            KIND,
+            required(
+                "layers",
+                "1 to 10 file names, or `{ file = \"...\", flipped = true }`",
+                "Product files of the IGSDB (JSON); `flipped` turns a pane round",
+            ),
+        ],
+    },
+    Kind {
+        name: "conductor",
+        line: "kind = \"conductor\"",
+        about: "Rough metal: GGX, whose reflectance rises to 1 at grazing incidence",
+        keys: &[KIND, REFLECTANCE, ROUGHNESS, ALPHA],
+    },
+    Kind {
+        name: "plastic",
+        line: "kind = \"plastic\"",
+        about: "A diffuse base under a clear rough coat",
+        keys: &[
+            KIND,
+            required(
+                "reflectance",
+                SHARES,
+                "The share of the light that enters the coat and comes out again",
+            ),
+            optional("eta", "above 1, at most 5", "`1.5`", "The refractive index of the coat"),
+            ROUGHNESS,
+            ALPHA,
+        ],
+    },
+    Kind {
+        name: "bsdf",
+        line: "kind = \"bsdf\"",
+        about: "A thin sheet whose scattering was measured",
+        keys: &[
+            KIND,
+            required(
+                "file",
+                "file name",
+                "WINDOW XML (Klems patches, tensor trees), MERL, ASTM E1392, DDR or DDT",
+            ),
+            optional(
+                "up",
+                DIRECTION,
+                "none",
+                "Where the y axis of the tables points; tables that are the same however they \
+                 are turned need none",
+            ),
+        ],
+    },
 ];
 const PLANNED_KINDS: [&str; 2] = ["glossy", "phong"];
 const PLANNED_KEYS: [&str; 2] = ["specular", "texture"];
@@ -84,7 +206,7 @@ pub(super) fn entries(materials: &Section<'_>) -> Result<Vec<MaterialEntry>, Loa
 }
 
 fn scattering(section: &Section<'_>) -> Result<Scattering, LoadError> {
-    let names = KINDS.map(|(name, _)| name);
+    let names = KINDS.map(|kind| kind.name);
     let kind = section.get("kind").map(|kind| kind.name(&names, &PLANNED_KINDS));
     let kind = kind.transpose()?.unwrap_or("diffuse");
     refuse_keys_of_other_kinds(section, kind)?;
@@ -138,7 +260,7 @@ fn layer(value: &Value<'_>) -> Result<LayerEntry, LoadError> {
         return Ok(LayerEntry { file, is_flipped: false });
     }
     let section = value.section("of a layer".to_owned()).map_err(|_| value.unexpected(LAYERS))?;
-    section.only(&["file", "flipped"], &[])?;
+    section.only_names(&["file", "flipped"], &[])?;
     let file = section.require("file", LAYERS)?;
     let file = file.spanned(file.string(LAYERS)?.to_owned());
     let is_flipped = section.get("flipped").map_or(Ok(false), |flipped| flipped.boolean())?;
@@ -146,23 +268,23 @@ fn layer(value: &Value<'_>) -> Result<LayerEntry, LoadError> {
 }
 
 fn refuse_keys_of_other_kinds(section: &Section<'_>, kind: &str) -> Result<(), LoadError> {
-    let keys_of =
-        |name: &str| KINDS.iter().find(|(known, _)| *known == name).map(|(_, keys)| *keys);
-    let known: Vec<&str> = ["kind"].iter().chain(keys_of(kind).unwrap_or(&[])).copied().collect();
+    let keys_of = |name: &str| KINDS.iter().find(|known| known.name == name).map(|it| it.keys);
+    let known = keys_of(kind).unwrap_or(&[]);
     for Entry { key, value } in section.entries() {
-        let has_key = |(_, keys): &&(&str, &[&str])| keys.contains(&key.value);
-        if !known.contains(&key.value) && KINDS.iter().any(|kind| has_key(&kind)) {
-            let kinds: Vec<String> =
-                KINDS.iter().filter(has_key).map(|(name, _)| format!("\"{name}\"")).collect();
+        let has_key = |keys: &[Key]| keys.iter().any(|it| it.name == key.value);
+        if !has_key(known) && KINDS.iter().any(|kind| has_key(kind.keys)) {
+            let kinds = KINDS.iter().filter(|kind| has_key(kind.keys));
+            let kinds: Vec<String> = kinds.map(|kind| format!("\"{}\"", kind.name)).collect();
+            let names: Vec<&str> = known.iter().map(|key| key.name).collect();
             return Err(value.error(format!(
                 "\"{}\" goes with kind = {}, not with \"{kind}\"; expected {}",
                 key.value,
                 kinds.join(" or "),
-                known.join(", ")
+                names.join(", ")
             )));
         }
     }
-    section.only(&known, &PLANNED_KEYS)
+    section.only(known, &PLANNED_KEYS)
 }
 
 fn diffuse(section: &Section<'_>) -> Result<Bsdf, LoadError> {

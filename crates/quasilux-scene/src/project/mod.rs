@@ -11,17 +11,21 @@ mod coefficients;
 mod document;
 mod electric_light;
 mod grid;
+mod keys;
 mod lights;
 mod luminaires;
 mod materials;
 mod names;
 mod outside;
 mod pane;
+mod reference;
 mod renamed;
 mod sensors;
 mod simulation;
 mod units;
 
+pub use keys::{Key, KeyTable};
+pub use reference::reference;
 pub use renamed::{REFUSED_KEYS, RefusedKey};
 pub use simulation::{SimulationSection, doubt_of_tolerance};
 pub use units::LengthUnit;
@@ -38,6 +42,7 @@ pub(crate) use sensors::SensorEntry;
 
 use crate::{LoadError, Spanned};
 use document::{Section, Source, Value};
+use keys::{optional, required};
 use names::Names;
 use quasilux_text::Position;
 use toml::de::DeTable;
@@ -106,6 +111,26 @@ const SECTIONS: [&str; 16] = [
     "simulation",
 ];
 
+const UNITS: &str = "`\"m\"`, `\"cm\"`, `\"mm\"`, `\"in\"` or `\"ft\"`";
+const SCENE_KEYS: [Key; 5] = [
+    required("geometry", "list of file names", "OBJ, glTF or GLB files, at least one, each once"),
+    optional(
+        "up",
+        "`\"y\"` or `\"z\"`",
+        "`\"z\"`",
+        "The axis that points up in the geometry files; with `\"y\"` their (x, y, z) becomes (x, \
+         -z, y)",
+    ),
+    optional("units", UNITS, "`\"m\"`", "Of the geometry files"),
+    optional("position_units", UNITS, "`\"m\"`", "Of positions and lengths in the project file"),
+    optional(
+        "maintenance_factor",
+        "factor, above 0, at most 1",
+        "`1`",
+        "What all lights give in use over what they give when new",
+    ),
+];
+
 /// Refuses a file that would take too much memory once it is read.
 fn expect_few_parts(source: &Source<'_>, text: &str) -> Result<(), LoadError> {
     let is_part = |byte: &u8| matches!(byte, b',' | b'=' | b'[' | b'{');
@@ -123,7 +148,7 @@ impl Project {
         expect_few_parts(&source, text)?;
         let table = table_of(&source, text)?;
         let root = source.root(table.get_ref());
-        root.only(&SECTIONS, &[])?;
+        root.only_names(&SECTIONS, &[])?;
         let SceneSection {
             geometry,
             place: scene_place,
@@ -226,8 +251,7 @@ fn scene_section(root: &Section<'_>) -> Result<SceneSection, LoadError> {
     let section = root.table("scene")?.ok_or_else(|| {
         root.error(format!("no [scene] section; expected [scene] with geometry = {expected}"))
     })?;
-    let keys = ["geometry", "up", "units", "position_units", "maintenance_factor"];
-    section.only(&keys, &[])?;
+    section.only(&SCENE_KEYS, &[])?;
     let list = section.require("geometry", expected)?;
     let geometry = geometry_files(&list, expected)?;
     let up = match section.get("up").map(|up| up.name(&["y", "z"], &[])).transpose()? {

@@ -2,25 +2,68 @@
 
 use super::document::{Section, Value};
 use super::grid::{cells_along, en12464_cell_m};
+use super::keys::{DIRECTION, Key, POSITION, optional, required};
 use super::names::Names;
 use crate::{Grid, LoadError, Quantity, Sensor, SensorPoint, SensorShape};
 use glam::DVec3;
 use quasilux_text::Position;
 
-const GRID_KEYS: [&str; 11] = [
-    "name",
-    "kind",
-    "origin",
-    "u",
-    "v",
-    "spacing",
-    "counts",
-    "rule",
-    "normal",
-    "quantity",
-    "target_lx",
+const NAME: Key =
+    required("name", "text", "Also the name of its result files; no other sensor or camera has it");
+const KIND: Key = required("kind", "`\"grid\"` or `\"points\"`", "Which of the two it is");
+pub(super) const GRID_KEYS: [Key; 11] = [
+    NAME,
+    KIND,
+    required("origin", POSITION, "A corner of the rectangle"),
+    required("u", POSITION, "The edge from `origin` along which points are counted first"),
+    required("v", POSITION, "The other edge from `origin`, square to `u`"),
+    optional(
+        "spacing",
+        "m, above 0",
+        "from `counts` or `rule`",
+        "Longest edge of a cell; one of `spacing`, `counts` and `rule`",
+    ),
+    optional(
+        "counts",
+        "`[nu, nv]`, at least 1 each",
+        "from `spacing` or `rule`",
+        "Cells along `u` and `v`; all grids of a project have at most 1e7",
+    ),
+    optional(
+        "rule",
+        "`\"en12464\"`",
+        "from `spacing` or `counts`",
+        "Cells no larger than EN 12464-1 allows for this rectangle",
+    ),
+    optional(
+        "normal",
+        DIRECTION,
+        "`u` x `v`",
+        "The side from which light counts, as the cosine to it; not in the plane of the grid",
+    ),
+    optional(
+        "quantity",
+        "`\"centre\"` or `\"mean\"`",
+        "`\"centre\"`",
+        "The illuminance at the centre of each cell, or the mean over it",
+    ),
+    optional(
+        "target_lx",
+        "lx, above 0",
+        "none",
+        "The illuminance that is wanted: pictures show its line",
+    ),
 ];
-const POINTS_KEYS: [&str; 4] = ["name", "kind", "points", "normals"];
+pub(super) const POINTS_KEYS: [Key; 4] = [
+    NAME,
+    KIND,
+    required("points", "`[[x, y, z], ...]` in m", "Where the points are"),
+    required(
+        "normals",
+        "directions `[[x, y, z], ...]`",
+        "One for each point: the side from which light counts",
+    ),
+];
 
 /// Most cells that all grids of a project may have together.
 const MAX_CELLS: f64 = 1e7;

@@ -4,33 +4,127 @@
 //! refuse a name with the line that gives it.
 
 use super::document::{Section, Value};
+use super::keys::{Key, optional};
 use super::renamed::REFUSED_KEYS;
 use crate::{LoadError, Spanned};
 use std::ops::RangeInclusive;
 
-const KEYS: [&str; 22] = [
-    "estimator",
-    "sequence",
-    "randomization",
-    "rel_tol",
-    "abs_tol",
-    "unseen_tol",
-    "tolerance_on",
-    "interval",
-    "confidence",
-    "replicates",
-    "seed",
-    "max_bounces",
-    "list_terms",
-    "first_shot",
-    "map_element_m",
-    "map_elements",
-    "map_adaptive",
-    "map_reconstruction",
-    "map_photons",
-    "map_dimensions",
-    "image_depth",
-    "importance",
+const SWITCH: &str = "`\"auto\"`, `\"on\"` or `\"off\"`";
+const TOLERANCE: &str = "share, above 0, at most 0.5, or per cent as text";
+pub(super) const KEYS: [Key; 22] = [
+    optional(
+        "estimator",
+        "`\"auto\"`, `\"bidirectional\"`, `\"path\"`, `\"photon\"` or `\"bidirectional-map\"`",
+        "`\"auto\"`",
+        "How light is traced; `\"auto\"` is `\"bidirectional\"`, the others are for research",
+    ),
+    optional(
+        "sequence",
+        "`\"sobol\"`, `\"halton\"`, `\"hammersley\"`, `\"faure4\"` or `\"random\"`",
+        "`\"sobol\"`",
+        "The points that drive the simulation",
+    ),
+    optional(
+        "randomization",
+        "`\"owen\"`, `\"shift\"`, `\"rotation\"` or `\"none\"`",
+        "`\"owen\"`",
+        "How replicates are made independent; without, there are no intervals",
+    ),
+    optional(
+        "rel_tol",
+        TOLERANCE,
+        "`0.01`",
+        "Half-width of the interval over the value, for each sensor point",
+    ),
+    optional("abs_tol", "lx, above 0", "none", "A half-width that is enough, whatever the value"),
+    optional(
+        "unseen_tol",
+        "share, above 0, at most 0.5, per cent as text, or `\"off\"`",
+        "`0.05`",
+        "The bound on light that no sample met, over the value; at least `rel_tol`",
+    ),
+    optional(
+        "tolerance_on",
+        "`\"points\"` or `\"summary\"`",
+        "`\"points\"`",
+        "What has to reach the tolerance: every sensor point, or the average of every sensor",
+    ),
+    optional(
+        "interval",
+        "`\"student-t\"` or `\"certified\"`",
+        "`\"student-t\"`",
+        "With `\"certified\"` there are also limits that hold for any number of samples",
+    ),
+    optional("confidence", "share, between 0 and 1", "`0.95`", "Of all intervals"),
+    optional(
+        "replicates",
+        "1 to 65536",
+        "`16`",
+        "Repetitions of the whole simulation, from whose spread intervals come",
+    ),
+    optional("seed", "integer, 0 to 2^64 - 1", "`1`", "Other seeds give other samples"),
+    optional(
+        "max_bounces",
+        "`\"unlimited\"`, or integer",
+        "`\"unlimited\"`",
+        "Bounces after which light is cut; 0 leaves the direct light",
+    ),
+    optional(
+        "list_terms",
+        "1 to 16",
+        "none",
+        "Tells light of 0, 1, 2, .. bounces apart, so many terms beside the rest",
+    ),
+    optional(
+        "first_shot",
+        SWITCH,
+        "`\"auto\"`",
+        "Whether photons for maps leave lit places instead of point-like lights",
+    ),
+    optional(
+        "map_element_m",
+        "m, above 0",
+        "from the size of the scene",
+        "Longest edge of an element of the illumination map before any is split",
+    ),
+    optional("map_elements", "1 to 2^31 - 1", "`4194304`", "Most elements of the illumination map"),
+    optional(
+        "map_adaptive",
+        "`true` or `false`",
+        "`true`",
+        "Whether elements are split where the illumination varies",
+    ),
+    optional(
+        "map_reconstruction",
+        "`\"linear\"` or `\"constant\"`",
+        "`\"linear\"`",
+        "What is made of the photons in an element",
+    ),
+    optional(
+        "map_photons",
+        "1 to 2^20",
+        "`1`",
+        "Photons of a map for every path of a sensor point",
+    ),
+    optional(
+        "map_dimensions",
+        "1 to 2^32 - 1",
+        "none",
+        "Coordinates that a photon on a map may have used; later ones are left out, with their \
+         light",
+    ),
+    optional(
+        "image_depth",
+        "0 to 1000",
+        "as many as matter",
+        "Mirrors in a row through which images of point-like lights are followed",
+    ),
+    optional(
+        "importance",
+        SWITCH,
+        "`\"auto\"`",
+        "Whether photons and light subpaths are split where they matter more to the sensors",
+    ),
 ];
 
 /// Larger tolerances are written with a percent sign.

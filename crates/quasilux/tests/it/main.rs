@@ -20,6 +20,7 @@ mod fingerprint;
 mod glazing;
 mod kept;
 mod kernels;
+mod keys;
 #[cfg(target_os = "linux")]
 mod killed;
 mod limits;

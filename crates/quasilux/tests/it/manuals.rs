@@ -2,7 +2,7 @@
 
 use crate::support::Folder;
 
-const COMMANDS: [&str; 15] = [
+const COMMANDS: [&str; 16] = [
     "run",
     "annual",
     "check",
@@ -16,6 +16,7 @@ const COMMANDS: [&str; 15] = [
     "shard",
     "merge",
     "resume",
+    "keys",
     "completions",
     "man",
 ];

@@ -5,14 +5,31 @@ mod sky;
 mod sun;
 
 use super::document::{Section, Value};
+use super::keys::{Key, POSITION, required};
 use crate::environment::{Opening, SkyFacts, SkyModel, Sun};
 use crate::{LoadError, Spanned};
 use quasilux_sky::{LocalTime, Site, Sky, SkyError, SkyLevel};
 use quasilux_text::Position;
+pub(super) use site::KEYS as SITE_KEYS;
 use site::Oriented;
 use sky::Lit;
+pub(super) use sky::{CIE_KEYS, PANORAMA_KEYS, PEREZ_KEYS, UNIFORM_KEYS};
+pub(super) use sun::{KEYS as SUN_KEYS, WEATHER_KEYS as WEATHER_SUN_KEYS};
 
 const MODELS: [&str; 5] = ["cie", "perez", "uniform", "weather", "panorama"];
+pub(super) const WEATHER_SKY_KEYS: [Key; 1] = [sky::MODEL];
+pub(super) const WEATHER_KEYS: [Key; 1] =
+    [required("file", "file name", "A weather file: EPW or WEA")];
+pub(super) const GROUND_KEYS: [Key; 1] = [required(
+    "reflectance",
+    "share, 0 to 1",
+    "Of the ground around; without `[ground]` it is 0.2",
+)];
+pub(super) const OPENING_KEYS: [Key; 3] = [
+    required("origin", POSITION, "A corner of the opening"),
+    required("u", POSITION, "The edge from `origin` to the next corner"),
+    required("v", POSITION, "The other edge from `origin`"),
+];
 const EXPECTED_MODEL: &str = "\"cie\", \"perez\", \"uniform\", \"weather\" or \"panorama\"";
 /// Most openings.
 const MAX_OPENINGS: usize = 10_000;
@@ -103,7 +120,7 @@ pub(super) fn read(root: &Section<'_>) -> Result<Option<OutsideEntry>, LoadError
     let site = site_section.as_ref().map(site::read).transpose()?.unwrap_or_default();
     let light = match (name, root.get("weather")) {
         ("weather", _) => {
-            section.only(&["model"], &[])?;
+            section.only(&WEATHER_SKY_KEYS, &[])?;
             let place = site_section.as_ref().map(Section::place);
             let site = site.site.zip(place).map(|(value, place)| Spanned { value, place });
             OutsideLight::Weather(weather(root, &model, site)?)
@@ -175,7 +192,7 @@ fn weather(
         let message = "the model \"weather\" needs a weather file; expected [weather] with file";
         return Err(model.error(message));
     };
-    section.only(&["file"], &[])?;
+    section.only(&WEATHER_KEYS, &[])?;
     let expected = "the name of a weather file: EPW or WEA, relative to the project file";
     let file = section.require("file", expected)?;
     let file = file.spanned(file.string(expected)?.to_owned());
@@ -185,7 +202,7 @@ fn weather(
 
 fn ground(root: &Section<'_>) -> Result<f64, LoadError> {
     let Some(section) = root.table("ground")? else { return Ok(0.2) };
-    section.only(&["reflectance"], &[])?;
+    section.only(&GROUND_KEYS, &[])?;
     let expected = "a share of light, 0 to 1";
     section.require("reflectance", expected)?.number(expected, |x| (0.0..=1.0).contains(&x))
 }
@@ -196,7 +213,7 @@ fn openings(root: &Section<'_>) -> Result<Vec<Opening>, LoadError> {
         return Err(sections[MAX_OPENINGS].error(format!("more than {MAX_OPENINGS} openings")));
     }
     let opening = |section: &Section<'_>| {
-        section.only(&["origin", "u", "v"], &[])?;
+        section.only(&OPENING_KEYS, &[])?;
         let vector = |key, expected: &str| section.require(key, expected)?.position_m(expected);
         let origin = vector("origin", "a position [x, y, z] in m")?;
         let u = vector("u", "an edge [x, y, z] in m")?;

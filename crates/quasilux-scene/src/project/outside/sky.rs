@@ -5,9 +5,73 @@ use super::{PanoramaEntry, refuse};
 use crate::LoadError;
 use crate::environment::SkyModel;
 use crate::project::document::{Section, Value};
+use crate::project::keys::{Key, optional, required};
 use quasilux_sky::{CieType, Distribution, Irradiance, Perez, Sky, SkyLevel, SkyPoint};
 
 const LEVELS: [&str; 2] = ["horizontal_illuminance_lx", "zenith_luminance_cd_m2"];
+
+pub(in crate::project) const MODEL: Key = required(
+    "model",
+    "`\"cie\"`, `\"perez\"`, `\"uniform\"`, `\"weather\"` or `\"panorama\"`",
+    "Which of the models it is",
+);
+const HORIZONTAL: Key = optional(
+    LEVELS[0],
+    "lx, 0 to 1e9",
+    "from the other",
+    "What the sky without the sun gives on a free horizontal plane; this or \
+     `zenith_luminance_cd_m2`",
+);
+const ZENITH: Key =
+    optional(LEVELS[1], "cd/m2, 0 to 1e9", "from the other", "The luminance of the zenith");
+pub(in crate::project) const UNIFORM_KEYS: [Key; 3] = [MODEL, HORIZONTAL, ZENITH];
+pub(in crate::project) const CIE_KEYS: [Key; 4] = [
+    MODEL,
+    required(
+        "type",
+        "1 to 16",
+        "The number of the CIE standard general sky (CIE S 011); 1 is overcast, 16 the \
+         traditional overcast sky",
+    ),
+    HORIZONTAL,
+    ZENITH,
+];
+pub(in crate::project) const PEREZ_KEYS: [Key; 4] = [
+    MODEL,
+    required(
+        "direct_normal_w_m2",
+        "W/m2, 0 to 2000",
+        "Irradiance of the sun on a plane across its rays",
+    ),
+    required(
+        "diffuse_horizontal_w_m2",
+        "W/m2, 0 to 2000",
+        "Irradiance of the sky on a horizontal plane",
+    ),
+    optional("dew_point_c", "degrees Celsius", "`11`", "Dew point of the air"),
+];
+pub(in crate::project) const PANORAMA_KEYS: [Key; 5] = [
+    MODEL,
+    required("file", "file name", "A panorama in Radiance's RGBE or XYZE format"),
+    optional(
+        "middle_azimuth_deg",
+        "degrees, -360 to 360",
+        "`0`",
+        "What the middle of the picture shows, clockwise from north",
+    ),
+    optional(
+        LEVELS[0],
+        "lx, 0 to 1e9",
+        "the picture's",
+        "Scales it to this illuminance of a free horizontal plane",
+    ),
+    optional(
+        LEVELS[1],
+        "cd/m2, 0 to 1e9",
+        "the picture's",
+        "Scales it to this luminance of the zenith; not beside the other",
+    ),
+];
 
 /// A sky, and what is known of its sun.
 pub(super) struct Lit {
@@ -18,7 +82,7 @@ pub(super) struct Lit {
 }
 
 pub(super) fn uniform(section: &Section<'_>) -> Result<Lit, LoadError> {
-    section.only(&["model", LEVELS[0], LEVELS[1]], &[])?;
+    section.only(&UNIFORM_KEYS, &[])?;
     Ok(Lit {
         sky: scaled(section, Distribution::uniform())?,
         model: SkyModel::Uniform,
@@ -27,7 +91,7 @@ pub(super) fn uniform(section: &Section<'_>) -> Result<Lit, LoadError> {
 }
 
 pub(super) fn cie(section: &Section<'_>, sun: Option<&PlacedSun>) -> Result<Lit, LoadError> {
-    section.only(&["model", "type", LEVELS[0], LEVELS[1]], &[])?;
+    section.only(&CIE_KEYS, &[])?;
     let number = section.require("type", "1 to 16")?;
     let cie = CieType::new(number.integer("1 to 16", 1..=16)? as i64);
     let cie = cie.map_err(|error| number.error(error.to_string()))?;
@@ -50,8 +114,7 @@ pub(super) fn perez(
     model: &Value<'_>,
     sun: Option<&PlacedSun>,
 ) -> Result<Lit, LoadError> {
-    let keys = ["direct_normal_w_m2", "diffuse_horizontal_w_m2", "dew_point_c"];
-    section.only(&["model", keys[0], keys[1], keys[2]], &[])?;
+    section.only(&PEREZ_KEYS, &[])?;
     let Some(sun) = sun else {
         return Err(model.error("the model \"perez\" needs the sun; expected [sun]"));
     };
@@ -90,7 +153,7 @@ fn level(amount: &Value<'_>) -> Result<SkyLevel, LoadError> {
 
 /// The picture of a sky, and how it is scaled and turned.
 pub(super) fn panorama(section: &Section<'_>) -> Result<PanoramaEntry, LoadError> {
-    section.only(&["model", "file", "middle_azimuth_deg", LEVELS[0], LEVELS[1]], &[])?;
+    section.only(&PANORAMA_KEYS, &[])?;
     let expected = "the name of a panorama in Radiance's format, such as \"sky.hdr\"";
     let file = section.require("file", expected)?;
     let file = file.spanned(file.string(expected)?.to_owned());

@@ -5,12 +5,40 @@ use crate::LoadError;
 use crate::Spanned;
 use crate::environment::Sun;
 use crate::project::document::{Section, Value};
+use crate::project::keys::{Key, optional};
 use quasilux_sky::{LocalTime, SkyError, SkyPoint};
 use quasilux_text::Position;
 
-const KEYS: [&str; 5] = ["altitude_deg", "azimuth_deg", "time", "direct", "normal_illuminance_lx"];
+const DIRECT: Key =
+    optional("direct", "`true` or `false`", "`false`", "Whether the disk of the sun shines");
+pub(in crate::project) const KEYS: [Key; 5] = [
+    optional("altitude_deg", "degrees, -90 to 90", "from `time`", "Above the horizon"),
+    optional("azimuth_deg", "degrees, -360 to 360", "from `time`", "Clockwise from north"),
+    optional(
+        "time",
+        "date and time, such as `2026-03-20T12:00:00`",
+        "none",
+        "Local time of `[site]`, in place of the two angles",
+    ),
+    DIRECT,
+    optional(
+        "normal_illuminance_lx",
+        "lx, 0 to 1e9",
+        "from the irradiances of a Perez sky",
+        "What the sun gives on a plane across its rays; asked for where it shines under another \
+         sky",
+    ),
+];
 /// Keys of a sun that a weather file describes.
-const WEATHER_KEYS: [&str; 2] = ["time", "direct"];
+pub(in crate::project) const WEATHER_KEYS: [Key; 2] = [
+    optional(
+        "time",
+        "date and time",
+        "none",
+        "Which interval of the weather file; a year needs none",
+    ),
+    DIRECT,
+];
 
 /// The day of the year where no time says which: the distance of the sun is then its mean one.
 const MEAN_DAY: u32 = 94;
@@ -61,8 +89,11 @@ pub(super) fn place(section: &Section<'_>, site: &Oriented) -> Result<PlacedSun,
 
 /// Of a project whose sky is that of a weather file.
 pub(super) fn of_weather(section: &Section<'_>) -> Result<WeatherSun, LoadError> {
-    let told = KEYS.iter().filter(|key| !WEATHER_KEYS.contains(key));
-    if let Some(value) = told.filter_map(|key| section.get(key)).next() {
+    let told = KEYS
+        .iter()
+        .map(|key| key.name)
+        .filter(|name| WEATHER_KEYS.iter().all(|it| it.name != *name));
+    if let Some(value) = told.filter_map(|name| section.get(name)).next() {
         let message = format!(
             "the weather file says where the sun is and how bright, not \"{}\"; expected time, \
              and direct = true where its disk shines",
