@@ -12,7 +12,7 @@ mod pictures;
 
 use blocks::{Block, blocks};
 use commands::Line;
-use pictures::PICTURES;
+use pictures::{PICTURES, Picture};
 use std::fs;
 use std::path::{Path, PathBuf};
 use xtask::workspace::Failure;
@@ -53,11 +53,11 @@ pub(crate) fn check(root: &Path) -> Result<(), Failure> {
 /// Writes the pictures anew.
 pub(crate) fn draw(root: &Path) -> Result<(), Failure> {
     let program = commands::build(root)?;
-    for picture in &PICTURES {
-        let document = Document::open(root, picture.document)?;
+    for pictures in PICTURES.chunk_by(Picture::is_made_with) {
+        let document = Document::open(root, pictures[0].document)?;
         document.write_projects()?;
-        commands::output(&program, &document.scratch, &picture.arguments())?;
-        picture.copy(root, &document.scratch)?;
+        commands::output(&program, &document.scratch, &pictures[0].arguments())?;
+        pictures.iter().try_for_each(|picture| picture.copy(root, &document.scratch))?;
         let _ = fs::remove_dir_all(&document.scratch);
     }
     Ok(())

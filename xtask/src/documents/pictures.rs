@@ -15,7 +15,7 @@ pub(super) struct Picture {
     made: &'static str,
 }
 
-pub(super) const PICTURES: [Picture; 4] = [
+pub(super) const PICTURES: [Picture; 10] = [
     Picture {
         document: "README.md",
         shown: "docs/office-workplane.png",
@@ -40,9 +40,53 @@ pub(super) const PICTURES: [Picture; 4] = [
         command: "photometry examples/office/batwing.ies --svg batwing.svg",
         made: "batwing.svg",
     },
+    Picture {
+        document: "docs/cameras.md",
+        shown: "docs/box-view.png",
+        command: "run box.toml",
+        made: "out/box/view.png",
+    },
+    Picture {
+        document: "docs/cameras.md",
+        shown: "docs/box-falsecolour.png",
+        command: "run box.toml",
+        made: "out/box/view-falsecolour.png",
+    },
+    Picture {
+        document: "docs/gallery.md",
+        shown: "docs/gallery-overcast.png",
+        command: "run examples/daylight-office/overcast.toml",
+        made: "out/overcast/workplane.png",
+    },
+    Picture {
+        document: "docs/gallery.md",
+        shown: "docs/gallery-autonomy.png",
+        command: YEAR,
+        made: "out/year/workplane.daylight_autonomy.png",
+    },
+    Picture {
+        document: "docs/gallery.md",
+        shown: "docs/gallery-hours.png",
+        command: YEAR,
+        made: "out/year/workplane.hours.png",
+    },
+    Picture {
+        document: "docs/gallery.md",
+        shown: "docs/gallery-lobes.svg",
+        command: "bsdf examples/diffuser/diffuser.ddt --svg lobes.svg",
+        made: "lobes.svg",
+    },
 ];
 
+/// What draws several pictures of one year.
+const YEAR: &str = "annual examples/daylight-office/year.toml";
+
 impl Picture {
+    /// Whether one run of the program makes both.
+    pub(super) fn is_made_with(&self, other: &Self) -> bool {
+        (self.document, self.command) == (other.document, other.command)
+    }
+
     /// The arguments of the program that make it.
     pub(super) fn arguments(&self) -> Vec<String> {
         self.command.split(' ').map(str::to_owned).collect()
