@@ -18,9 +18,9 @@ import quasilux
 
 def test_it_tells_its_version() -> None:
     run = command_line("--version")
-    version, kernel = run.stdout.splitlines()
+    version, commit, kernel = run.stdout.splitlines()
     assert (run.returncode, version) == (0, f"quasilux {quasilux.__version__}")
-    assert kernel.startswith("ray kernel: ")
+    assert commit.startswith("commit: ") and kernel.startswith("ray kernel: ")
 
 
 def test_a_project_is_run(tmp_path: Path) -> None:

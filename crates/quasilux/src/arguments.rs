@@ -21,6 +21,7 @@ pub(crate) use points::PointsArguments;
 pub(crate) use refusal::{refusal, unknown_command};
 pub(crate) use sky::{Days, SkyArguments};
 
+use crate::build::{COMMIT, VERSION};
 use crate::kernel;
 use clap::builder::{PossibleValue, PossibleValuesParser};
 use clap::{Args, CommandFactory, Parser, Subcommand};
@@ -80,11 +81,11 @@ pub(crate) enum Command {
     Man(ManArguments),
 }
 
-/// The version, and which kernel traces rays here.
+/// The version, the commit, and which kernel traces rays here.
 fn version() -> &'static str {
-    static VERSION: LazyLock<String> =
-        LazyLock::new(|| format!("{}\n{}", env!("CARGO_PKG_VERSION"), kernel::text()));
-    &VERSION
+    static TEXT: LazyLock<String> =
+        LazyLock::new(|| format!("{VERSION}\ncommit: {COMMIT}\n{}", kernel::text()));
+    &TEXT
 }
 
 impl Arguments {

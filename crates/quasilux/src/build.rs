@@ -5,6 +5,9 @@ pub(crate) const VERSION: &str = env!("CARGO_PKG_VERSION");
 /// The first 16 digits of the fingerprint of all code that decides results (`build/fingerprint/`).
 pub(crate) const BUILD: &str = env!("QUASILUX_BUILD");
 
+/// The first digits of the commit that the sources are of, or `unknown`.
+pub(crate) const COMMIT: &str = env!("QUASILUX_COMMIT");
+
 /// Refuses another version, and another build of the same.
 pub(crate) fn expect(version: &str, build: &str) -> Result<(), String> {
     if version != VERSION {

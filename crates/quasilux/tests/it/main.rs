@@ -7,6 +7,8 @@ mod area;
 mod attacks;
 mod bad_input;
 mod bsdf;
+#[path = "../../build/commit.rs"]
+mod build_commit;
 #[path = "../../build/fingerprint/mod.rs"]
 mod build_fingerprint;
 mod cameras;
