@@ -23,9 +23,12 @@ mod office;
 mod prediction;
 mod python;
 mod reference;
+mod release;
 mod same_bits;
 mod steps;
 mod weather;
+#[cfg(test)]
+mod workflows;
 mod wrap;
 
 use std::path::Path;
@@ -42,6 +45,8 @@ cargo xtask test fuzz      the fuzz targets compile, lints included
 cargo xtask test tests     all tests of the workspace
 cargo xtask test docs      documentation, warnings denied
 cargo xtask test package   the crates to publish build from their packages
+cargo xtask test deny      licences, doubles and sources of dependencies
+cargo xtask test release   what a release is made of: archive, notes, order of crates
 cargo xtask test python    the Python package: wheel, tests, types, documentation
 cargo xtask test examples  every example runs and gives the numbers it promises
 cargo xtask test gauntlet  a short part of the gauntlet, whose references are shipped
@@ -63,6 +68,9 @@ cargo xtask gauntlet ..    hard rooms at random against a reference; --help list
 cargo xtask experiments    write research/experiments.md from what the experiments wrote
 cargo xtask reference      write the tables of docs/project-reference.md from `quasilux keys`
 cargo xtask pictures       write the pictures of the documentation from the commands beside them
+cargo xtask crates         print the crates to publish, in the order in which a registry takes them
+cargo xtask notes VERSION  print what the changelog says of a version
+cargo xtask dist TARGET    build the program for a target, and pack it with manual and completions
 cargo xtask help           this text
 ";
 
@@ -88,6 +96,9 @@ fn main() -> ExitCode {
         ["gauntlet", ref options @ ..] => gauntlet::run(&workspace_root(), options),
         ["cie171"] => cie171::write(&workspace_root()),
         ["experiments"] => experiments::write(&workspace_root()),
+        ["crates"] => release::print_crates(&workspace_root()),
+        ["notes", version] => release::print_notes(&workspace_root(), version),
+        ["dist", target] => release::pack_target(&workspace_root(), target),
         ["reference"] => reference::write(&workspace_root()),
         ["pictures"] => documents::draw(&workspace_root()),
         ["octant"] => octant::write(&workspace_root()),

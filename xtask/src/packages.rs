@@ -2,6 +2,7 @@
 //! and the copies that it has left unpacked.
 
 use crate::modules::targets;
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use toml::{Table, Value};
 
@@ -39,6 +40,47 @@ pub fn of_workspace(root: &Path) -> Result<Vec<Package>, String> {
         packages.extend(package(&manifest, &exists));
     }
     Ok(packages)
+}
+
+/// The names of the members with `publish = true`, each behind those that it needs: a registry
+/// takes them in this order.
+///
+/// # Errors
+/// When one needs a member that is not published, or a manifest is missing or malformed.
+pub fn in_order(root: &Path) -> Result<Vec<String>, String> {
+    let mut manifests = Vec::new();
+    for folder in targets::members(root)? {
+        manifests.push(targets::manifest(&root.join(&folder).join("Cargo.toml"))?);
+    }
+    ordered(&manifests)
+}
+
+fn ordered(manifests: &[Table]) -> Result<Vec<String>, String> {
+    let name = |manifest: &Table| manifest["package"]["name"].as_str().map(str::to_owned);
+    let is_published = |manifest: &&Table| package(manifest, &|_| true).is_some();
+    let members: BTreeSet<String> = manifests.iter().filter_map(name).collect();
+    let mut waiting: Vec<(String, BTreeSet<String>)> = manifests
+        .iter()
+        .filter(is_published)
+        .filter_map(|manifest| Some((name(manifest)?, needs(manifest, &members))))
+        .collect();
+    let mut ordered: Vec<String> = Vec::new();
+    while !waiting.is_empty() {
+        let is_ready =
+            |(_, needs): &(String, BTreeSet<String>)| needs.iter().all(|it| ordered.contains(it));
+        let Some(next) = waiting.iter().position(is_ready) else {
+            return Err(format!("not published, or in a circle: what {waiting:?} need"));
+        };
+        ordered.push(waiting.remove(next).0);
+    }
+    Ok(ordered)
+}
+
+/// The members that a package cannot be built without; its tests may need more.
+fn needs(manifest: &Table, members: &BTreeSet<String>) -> BTreeSet<String> {
+    let sections = ["dependencies", "build-dependencies"].into_iter();
+    let tables = sections.filter_map(|section| manifest.get(section)?.as_table());
+    tables.flat_map(Table::keys).filter(|name| members.contains(*name)).cloned().collect()
 }
 
 /// Removes the unpacked copies of the packages from the folder of cargo. It builds packages from a
@@ -98,6 +140,22 @@ mod tests {
         for publish in ["", "publish = false", "publish.workspace = true"] {
             assert!(package(&manifest(publish), &|_| false).is_none(), "{publish}");
         }
+    }
+
+    #[test]
+    fn crates_stand_behind_those_that_they_need() {
+        let manifest = |name: &str, needs: &str, publish: bool| -> Table {
+            let package = format!("[package]\nname = '{name}'\npublish = {publish}\n");
+            format!("{package}[dependencies]\nserde = '1'\n{needs}").parse().unwrap()
+        };
+        let (top, low) = (manifest("a", "b.workspace = true", true), manifest("b", "", true));
+        assert_eq!(ordered(&[top.clone(), low]).unwrap(), ["b", "a"]);
+        let own = manifest("b", "", false);
+        assert!(ordered(&[top, own]).unwrap_err().contains("\"b\""));
+        let order = in_order(&crate::workspace::root()).unwrap();
+        let place = |name: &str| order.iter().position(|it| it == name);
+        assert!(place("quasilux-text") < place("quasilux-scene"));
+        assert_eq!(order.last().map(String::as_str), Some("quasilux"));
     }
 
     #[test]

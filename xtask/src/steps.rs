@@ -1,6 +1,6 @@
 //! The steps of the test command, in the order in which they are cheapest to fail.
 
-use crate::{documents, examples, gauntlet, python, same_bits};
+use crate::{documents, examples, gauntlet, python, release, same_bits};
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::process::Command;
@@ -13,12 +13,13 @@ struct Step {
     run: fn() -> Result<(), Failure>,
 }
 
-const STEPS: [Step; 9] = [
+const STEPS: [Step; 11] = [
     Step { name: "fmt", run: check_format },
     Step {
         name: "clippy",
         run: || cargo(&["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"], &[]),
     },
+    Step { name: "deny", run: check_dependencies },
     Step { name: "fuzz", run: check_fuzz_targets },
     Step { name: "tests", run: || run_tests(&[]) },
     Step {
@@ -26,6 +27,7 @@ const STEPS: [Step; 9] = [
         run: || cargo(&["doc", "--workspace", "--no-deps"], &[("RUSTDOCFLAGS", "-D warnings")]),
     },
     Step { name: "package", run: package_crates },
+    Step { name: "release", run: || release::rehearse(&workspace_root()) },
     Step { name: "python", run: || python::check(&workspace_root()) },
     Step { name: "examples", run: || examples::run_all(&workspace_root()) },
     Step { name: "gauntlet", run: || gauntlet::run_quick(&workspace_root()) },
@@ -102,6 +104,17 @@ fn check_format() -> Result<(), Failure> {
 /// Lints the fuzz targets without the fuzzer, which needs a nightly compiler and a C++ one.
 fn check_fuzz_targets() -> Result<(), Failure> {
     cargo(&["clippy", FUZZ_MANIFEST, "--no-default-features", "--", "-D", "warnings"], &[])
+}
+
+/// Licences, doubles and sources of all dependencies (`deny.toml`), where cargo-deny is installed.
+/// Advisories need the network: the public CI asks for them.
+fn check_dependencies() -> Result<(), Failure> {
+    let asked = Command::new("cargo").args(["deny", "--version"]).output();
+    if !asked.is_ok_and(|output| output.status.success()) {
+        println!("xtask: dependencies are left out: no cargo-deny (cargo install cargo-deny)");
+        return Ok(());
+    }
+    cargo(&["deny", "--offline", "check", "licenses", "bans", "sources"], &[])
 }
 
 /// Packs the crates that may be published and builds each from its package, without the registry,

@@ -121,6 +121,19 @@ pub(crate) fn build(root: &Path) -> Result<PathBuf, Failure> {
     })
 }
 
+/// Where cargo puts what it builds.
+pub(crate) fn target_folder(root: &Path) -> Result<PathBuf, Failure> {
+    let output = Command::new("cargo")
+        .args(["metadata", "--no-deps", "--offline", "--format-version", "1"])
+        .current_dir(root)
+        .output()
+        .map_err(|error| format!("cargo does not start: {error}"))?;
+    let metadata: serde_json::Value =
+        serde_json::from_slice(&output.stdout).map_err(|error| error.to_string())?;
+    let folder = metadata["target_directory"].as_str().map(PathBuf::from);
+    folder.ok_or_else(|| "cargo names no folder for what it builds".into())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
