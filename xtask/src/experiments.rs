@@ -2,10 +2,10 @@
 //! drift apart.
 //!
 //! `research/experiments/page.md` is the text. In it `{{table NAME}}` stands for the tables and
-//! claims that the experiment wrote, and `{{NAME: COLUMN where KEY=VALUE, KEY=VALUE as DIGITS}}` for one
-//! figure of its CSV file, in the one row where all keys have these values; `as DIGITS %` makes a
-//! share per cent. What an experiment writes for people names the CSV file written with it, and
-//! itself, by their SHA-256: with other files nothing is generated.
+//! claims that the experiment wrote, and `{{NAME: COLUMN where KEY=VALUE, KEY=VALUE as DIGITS}}`
+//! for one figure of its CSV file, in the one row where all keys have these values; `as DIGITS %`
+//! makes a share per cent. What an experiment writes for people names the CSV file written with it,
+//! and itself, by their SHA-256: with other files nothing is generated.
 
 use crate::wrap::wrap;
 use sha2::{Digest, Sha256};

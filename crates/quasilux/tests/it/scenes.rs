@@ -15,7 +15,8 @@ impl Look {
 }
 
 pub(crate) const LAMP_IES: &str = "IESNA:LM-63-2002\n[TEST] none\n[TESTLAB] none\n\
-    [ISSUEDATE] 1-JAN-2026\n[MANUFAC] none\nTILT=NONE\n1 -1 1 3 1 1 2 0 0 0\n1 1 10\n0 45 90\n0\n100 80 20\n";
+    [ISSUEDATE] 1-JAN-2026\n[MANUFAC] none\nTILT=NONE\n1 -1 1 3 1 1 2 0 0 0\n1 1 10\n\
+    0 45 90\n0\n100 80 20\n";
 
 /// A closed room of 2 m x 2 m x 2 m with all kinds of lights, a grid and two free points.
 pub(crate) fn write_room(folder: &Folder, project: &str, look: &Look) {
