@@ -6,7 +6,7 @@ use std::path::Path;
 use xtask::workspace::Failure;
 
 const PAGE: &str = "docs/project-reference.md";
-/// What stands before the tables.
+/// The line before the tables.
 const MARK: &str = "<!-- From here on: cargo xtask reference -->\n";
 
 /// Writes the tables anew, below what the page says first.

@@ -65,7 +65,7 @@ fn notes(root: &Path, version: &str) -> Result<String, Failure> {
     section(&text, version).ok_or_else(|| format!("CHANGELOG.md has no text below [{version}]"))
 }
 
-/// What stands below the heading of a version; `None` where there is no such heading, or nothing.
+/// Text below the heading of a version; `None` where there is no such heading, or nothing.
 fn section(changelog: &str, version: &str) -> Option<String> {
     let heading = format!("## [{version}]");
     let mut lines = changelog.lines().skip_while(|line| !line.starts_with(&heading));

@@ -35,7 +35,7 @@ fn commands(job: &Yaml) -> Vec<&str> {
     steps.iter().filter_map(|step| step["run"].as_str()).collect()
 }
 
-/// What calls of `cargo xtask` in a command say, `xtask` left out.
+/// Arguments of the calls of `cargo xtask` in a command, `xtask` left out.
 fn calls(command: &str) -> Vec<Vec<&str>> {
     let calls = command.split("cargo xtask ").skip(1);
     calls

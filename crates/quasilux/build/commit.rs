@@ -40,7 +40,7 @@ fn short(name: &str) -> String {
     if is_name { name[..DIGITS].to_owned() } else { "unknown".to_owned() }
 }
 
-/// What git says in a folder, if the folder is one of this project and not of another around it.
+/// Output of git in a folder, if the folder is one of this project and not of another around it.
 fn git(folder: &Path, arguments: &[&str]) -> Option<String> {
     let said = |arguments: &[&str]| {
         let output = Command::new("git").args(arguments).current_dir(folder).output().ok()?;

@@ -78,7 +78,7 @@ pub(super) const PICTURES: [Picture; 10] = [
     },
 ];
 
-/// What draws several pictures of one year.
+/// Command that draws several pictures of one year.
 const YEAR: &str = "annual examples/daylight-office/year.toml";
 
 impl Picture {

@@ -132,7 +132,7 @@ impl<'a> Section<'a> {
         self.only_names(&known, planned)
     }
 
-    /// The same of names that no table holds.
+    /// Refuses names beside `known` that no table holds.
     pub(super) fn only_names(&self, known: &[&str], planned: &[&str]) -> Result<(), LoadError> {
         for Entry { key, .. } in self.entries() {
             let name = key.value;

@@ -8,11 +8,11 @@
 pub struct Key {
     /// As it is written.
     pub name: &'static str,
-    /// What it takes, with the unit and the range: Markdown, as the other texts.
+    /// Values that it takes, with the unit and the range: Markdown, as the other texts.
     pub takes: &'static str,
-    /// What holds where it is left out; `None` where it may not be.
+    /// Default; `None` where it may not be left out.
     pub default: Option<&'static str>,
-    /// What it is, in a sentence without a full stop.
+    /// Meaning, in a sentence without a full stop.
     pub meaning: &'static str,
 }
 
@@ -23,9 +23,9 @@ pub struct KeyTable {
     pub section: &'static str,
     /// The line that makes it one of this kind; empty where there is but one kind.
     pub kind: &'static str,
-    /// What it is for.
+    /// Purpose of the table.
     pub about: &'static str,
-    /// Those that its reader takes; it refuses all others.
+    /// Keys that its reader takes; it refuses all others.
     pub keys: &'static [Key],
 }
 
@@ -48,11 +48,11 @@ pub(super) const fn optional(
     Key { name, takes, default: Some(default), meaning }
 }
 
-/// What positions and edges are.
+/// Values of positions and edges.
 pub(super) const POSITION: &str = "`[x, y, z]` in m";
-/// What directions are.
+/// Values of directions.
 pub(super) const DIRECTION: &str = "direction `[x, y, z]` of any length";
-/// What shares of light are.
+/// Values of shares of light.
 pub(super) const SHARES: &str = "share, or `[r, g, b]`, 0 to 1";
 
 impl KeyTable {

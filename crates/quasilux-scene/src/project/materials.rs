@@ -8,7 +8,7 @@ use crate::bsdf::{Conductor, Dielectric, Diffuse, Mirror, Plastic, Translucent};
 use crate::{Bsdf, LoadError, Spanned};
 use glam::DVec3;
 
-/// What each kind may hold.
+/// A kind of material, with the keys that it may hold.
 pub(super) struct Kind {
     name: &'static str,
     /// The line that asks for it.

@@ -157,7 +157,7 @@ mod tests {
         format!("{scene}{LIGHT}{SENSOR}{before}{wrong}")
     }
 
-    /// What the reader itself says that it takes.
+    /// The keys are those that the reader itself says it takes.
     #[test]
     fn the_reference_has_the_keys_that_the_reader_takes() {
         for table in reference() {

@@ -5,7 +5,7 @@ use quasilux_sampling::{Randomization, Sequence};
 use quasilux_scene::project::{Key, reference};
 use quasilux_transport::{EstimatorKind, IntervalKind, Reconstruction, Switch, ToleranceOn};
 
-/// What stands before the tables of the page.
+/// The line before the tables of the page.
 const MARK: &str = "<!-- From here on: cargo xtask reference -->\n";
 
 fn printed(arguments: &[&str]) -> String {
