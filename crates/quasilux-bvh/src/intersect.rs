@@ -137,7 +137,7 @@ pub fn intersect(ray: &PreparedRay, corners: &Corners, triangle: u32) -> Option<
     intersect_with::<PortableQuad>(ray, corners, triangle)
 }
 
-/// [`intersect`] with other instructions, to the same bits.
+/// Intersects as [`intersect`] does, with other instructions, to the same bits.
 #[inline(always)]
 pub(crate) fn intersect_with<Q: Quad>(
     ray: &PreparedRay,

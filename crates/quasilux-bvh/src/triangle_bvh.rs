@@ -32,7 +32,8 @@ impl TriangleBvh {
         Self::build_for(corners, SimdLevel::fastest())
     }
 
-    /// [`Self::build`] for a kernel of choice, which must be one of [`SimdLevel::all`].
+    /// Builds the hierarchy as [`Self::build`] does, for a kernel of choice, which must be one of
+    /// [`SimdLevel::all`].
     ///
     /// # Panics
     /// As [`Self::build`], and for a kernel that this machine does not have.

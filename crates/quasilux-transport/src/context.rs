@@ -162,7 +162,8 @@ impl<'a, S: Spectrum> Context<'a, S> {
         Self::on(SimdLevel::chosen(), scene, settings)
     }
 
-    /// [`Self::new`] for a ray kernel of choice: no result depends on it.
+    /// Makes a scene ready as [`Self::new`] does, for a ray kernel of choice: no result depends on
+    /// it.
     pub(crate) fn on(
         simd: SimdLevel,
         scene: impl Into<PreparedScene<'a>>,

@@ -329,7 +329,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
         true
     }
 
-    /// Takes the result of the path, once. All that it asked for must have arrived.
+    /// Returns what the path found, once. All that it asked for must have arrived.
     pub(crate) fn end(&mut self) -> PathResult<S> {
         self.add_arrived();
         self.light.found.add(0, self.light.pointlikes);

@@ -44,7 +44,7 @@ pub fn simulate<'a>(
     simulate_on(SimdLevel::fastest(), scene, settings, observer)
 }
 
-/// [`simulate`] with a ray kernel of choice.
+/// Simulates as [`simulate`] does, with a ray kernel of choice.
 pub(crate) fn simulate_on<'a>(
     simd: SimdLevel,
     scene: impl Into<PreparedScene<'a>>,

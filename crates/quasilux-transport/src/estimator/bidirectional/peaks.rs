@@ -15,7 +15,7 @@ use std::f64::consts::{FRAC_1_PI, FRAC_PI_2, TAU};
 /// Directions that are looked at where no formula is known, in height and around.
 const HEIGHTS: u32 = 24;
 const AZIMUTHS: u32 = 24;
-/// Factor for what may lie between them.
+/// Factor on the largest value among them, for what may lie between.
 const MARGIN: f64 = 1.3;
 /// Cosines for which peaks of facets are known, each by this factor below the one before.
 const COSINES: u32 = 56;
@@ -25,7 +25,7 @@ const COSINE_STEP: f64 = 0.840_896_415_253_714_6;
 const BY_WIDTH: i32 = 8;
 const WIDTHS: i32 = 12;
 const EVENLY: i32 = 64;
-/// Factor for what may lie between these.
+/// Factor on the largest value among these, for what may lie between.
 const FINE_MARGIN: f64 = 1.1;
 
 /// Largest values of a scattering function f over pairs of directions.
