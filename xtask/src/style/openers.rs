@@ -18,7 +18,7 @@ pub fn vague_openers(file: &TextFile) -> Vec<usize> {
                 let rest = text.trim_start().strip_prefix(*opener);
                 rest.is_some_and(|rest| !rest.starts_with(char::is_alphanumeric))
             };
-            if OPENERS.iter().any(|opener| opens(opener)) {
+            if OPENERS.iter().any(opens) {
                 found.push(i + 1);
             }
         }
