@@ -19,7 +19,8 @@ mod shard;
 mod sky;
 mod validate;
 
-pub(crate) use annual::annual;
+pub use annual::{FinishedYear, YearFile, YearListener};
+pub(crate) use annual::{annual, year_in_memory};
 pub(crate) use bsdf::bsdf;
 pub(crate) use check::{check, document as check_document, marks, text as check_text};
 pub(crate) use completions::completions;
@@ -34,5 +35,8 @@ pub(crate) use resume::{KeptRun, resume};
 pub use run::Finished;
 pub(crate) use run::{Folder, Job, count, pool, run, work};
 pub(crate) use shard::shard;
-pub(crate) use sky::sky;
+pub use sky::CieSky;
+pub(crate) use sky::{
+    ShownSky, Subject, document as sky_document, drawing as sky_drawing, sky, text as sky_text,
+};
 pub(crate) use validate::validate;

@@ -1,8 +1,9 @@
 //! `quasilux annual`: the daylight of a year, hour by hour.
 //!
 //! Points come in blocks, from the simulation (`year`) or from what was kept of it (`kept`), and
-//! become the files of results (`sink`).
+//! become the files of results (`sink`), on disk or in memory (`in_memory`).
 
+mod in_memory;
 mod kept;
 mod sink;
 mod year;
@@ -13,8 +14,11 @@ use crate::checkpoint::{Heading, RunPaths};
 use crate::exit::{CliError, Exit};
 use crate::year_file::{YearHeading, YearWriter};
 use crate::{interrupt, project};
+pub(crate) use in_memory::year_in_memory;
+pub use in_memory::{FinishedYear, YearListener};
 use kept::Keeper;
 pub(super) use kept::{merge_years, resume_year};
+pub use sink::YearFile;
 use std::ops::Range;
 use year::Year;
 

@@ -69,29 +69,45 @@ impl<'s, 'r> Sink<'s, 'r> {
     }
 }
 
-/// Writes what a report says.
-pub(super) fn write(report: &AnnualReport<'_>, folder: &Path, title: &str) -> Result<(), CliError> {
-    results::rescued(folder, |folder| write_to(report, folder, title))
+/// A file of results.
+#[derive(Clone, Debug)]
+pub struct YearFile {
+    /// Its name in their folder.
+    pub name: String,
+    /// What it holds.
+    pub content: Vec<u8>,
 }
 
-fn write_to(report: &AnnualReport<'_>, folder: &Path, title: &str) -> Result<(), CliError> {
-    let write = |name: &str, bytes: &[u8]| results::write_atomic(&folder.join(name), bytes);
-    write("annual.json", annual_json(report).as_bytes())?;
-    write("hours.csv", hours_csv(report).as_bytes())?;
+/// All files of a report but that of the hours.
+pub(super) fn files(report: &AnnualReport<'_>, title: &str) -> Vec<YearFile> {
+    let mut files = Vec::new();
+    let mut add = |name: String, content| files.push(YearFile { name, content });
+    add("annual.json".to_owned(), annual_json(report).into_bytes());
+    add("hours.csv".to_owned(), hours_csv(report).into_bytes());
     for (number, of) in report.sensors().enumerate() {
         let name = &of.sensor.name;
-        write(&format!("{name}.annual.csv"), annual_csv(of).as_bytes())?;
+        add(format!("{name}.annual.csv"), annual_csv(of).into_bytes());
         if let Some(sheet) = report.equinox.csv(of.sensor, of.first, report.calendar) {
-            write(&format!("{name}.equinox.csv"), sheet.as_bytes())?;
+            add(format!("{name}.equinox.csv"), sheet.into_bytes());
         }
         if let Some(png) = hours_png(report, number, title) {
-            write(&format!("{name}.hours.png"), &png)?;
+            add(format!("{name}.hours.png"), png);
         }
     }
     if report.run.work.is_complete {
         for map in annual_maps(report, PictureOf { scene: report.scene, title }) {
-            write(&format!("{}.{}.png", map.sensor.name, map.measure.name()), &map.png)?;
+            add(format!("{}.{}.png", map.sensor.name, map.measure.name()), map.png);
         }
     }
-    Ok(())
+    files
+}
+
+/// Writes what a report says.
+pub(super) fn write(report: &AnnualReport<'_>, folder: &Path, title: &str) -> Result<(), CliError> {
+    let files = files(report, title);
+    results::rescued(folder, |folder| {
+        let write =
+            |file: &YearFile| results::write_atomic(&folder.join(&file.name), &file.content);
+        files.iter().try_for_each(write)
+    })
 }

@@ -160,11 +160,29 @@ impl<'p> Year<'p> {
         Ok(rooms.into_iter().map(room).collect())
     }
 
-    /// Simulates some points, block by block; the result says whether all are over.
+    /// Simulates some points, block by block, and shows how far it is; an interrupt ends it. The
+    /// result says whether all are over.
     pub(super) fn simulate(
         &self,
         points: Range<usize>,
         keep: &mut Keep<'_>,
+    ) -> Result<bool, CliError> {
+        let meter = Meter::new(1);
+        let goes_on = |share: f64| {
+            meter.show(share);
+            !interrupt::requested()
+        };
+        let is_complete = self.trace(points, keep, &goes_on);
+        interrupt::keep_results();
+        is_complete
+    }
+
+    /// The same, with somebody else to be told how far it is and to end it.
+    pub(super) fn trace(
+        &self,
+        points: Range<usize>,
+        keep: &mut Keep<'_>,
+        goes_on: &(dyn Fn(f64) -> bool + Sync),
     ) -> Result<bool, CliError> {
         if points.is_empty() {
             return Ok(true);
@@ -181,15 +199,9 @@ impl<'p> Year<'p> {
             if is_dimmed { point } else { point.slimmed() }
         };
         let (scene, settings) = (&loaded.scene, &self.settings);
-        let meter = Meter::new(1);
-        let goes_on = |share: f64| {
-            meter.show(share);
-            !interrupt::requested()
-        };
-        let run = YearRun { scene, hours, points, settings, digest: &digest, goes_on: &goes_on };
+        let run = YearRun { scene, hours, points, settings, digest: &digest, goes_on };
         let mut blocks = Blocks::new(keep);
         let work = self.pool.install(|| simulate_year(run, &mut blocks));
-        interrupt::keep_results();
         blocks.kept.map(|()| work.is_complete)
     }
 
@@ -277,7 +289,7 @@ impl<'p> Year<'p> {
     }
 
     /// A report without points.
-    fn report(&self) -> Result<AnnualReport<'_>, CliError> {
+    pub(super) fn report(&self) -> Result<AnnualReport<'_>, CliError> {
         let scene = &self.project.loaded.scene;
         let run = AnnualRun {
             version: VERSION.to_owned(),

@@ -12,8 +12,10 @@ use crate::exit::{CliError, Exit};
 use crate::print::{print, print_document, tell};
 use crate::results;
 use positions::ListedDay;
+use quasilux_drawing::Drawing;
 use std::path::Path;
-use subject::Subject;
+pub use subject::CieSky;
+pub(crate) use subject::{ShownSky, Subject};
 
 /// Cells along the diameter of the sky, in a picture and in a drawing.
 const PNG_CELLS: usize = 676;
@@ -51,4 +53,19 @@ pub(crate) fn sky(arguments: &SkyArguments) -> Result<Exit, CliError> {
     print(&summary::summary(&subject))?;
     print(&days.iter().map(ListedDay::text).collect::<String>())?;
     Ok(Exit::Done)
+}
+
+/// The document for programs, without places of the sun.
+pub(crate) fn document(subject: &Subject) -> String {
+    document::document(subject, &[])
+}
+
+/// Figures and luminances for people.
+pub(crate) fn text(subject: &Subject) -> String {
+    summary::summary(subject)
+}
+
+/// The sky in false colours.
+pub(crate) fn drawing(subject: &Subject, sky: &ShownSky) -> Drawing {
+    picture::drawing(subject, sky, SVG_CELLS)
 }

@@ -3,11 +3,11 @@
 use crate::arguments::SkyArguments;
 use crate::commands::inputs::{Failure, bytes_of, name_of};
 use crate::exit::CliError;
-use crate::project;
+use crate::project::{self, Project};
 use quasilux_scene::{Environment, FileKind, SkyFacts, SkyModel, Sun};
 use quasilux_sky::{
-    CieType, Distribution, LightAt, Site, Sky, SkyError, SkyLevel, SkyPoint, Weather,
-    sun_luminance_cd_m2,
+    CieType, Distribution, LightAt, LocalTime, ParsedWeather, Site, Sky, SkyError, SkyLevel,
+    SkyPoint, Weather, sun_luminance_cd_m2,
 };
 use std::path::Path;
 
@@ -16,36 +16,52 @@ use std::path::Path;
 const GROUND_REFLECTANCE: f64 = 0.2;
 
 /// What the command is about.
-pub(super) struct Subject {
+#[derive(Clone, Debug)]
+pub(crate) struct Subject {
     /// What messages call the project file; empty without one.
     pub(super) name: String,
     /// What pictures call it.
-    pub(super) title: String,
+    pub(crate) title: String,
     /// `None` where only the sun's places are asked for.
-    pub(super) sky: Option<ShownSky>,
+    pub(crate) sky: Option<ShownSky>,
     pub(super) site: Option<Site>,
     /// Oddities of the project that were lived with.
     pub(super) warnings: Vec<String>,
 }
 
 /// What shines.
-pub(super) struct ShownSky {
+#[derive(Clone, Debug)]
+pub(crate) struct ShownSky {
     pub(super) environment: Environment,
     pub(super) facts: SkyFacts,
 }
 
+/// A CIE sky, scaled to what it gives on a horizontal plane.
+#[derive(Clone, Copy, Debug)]
+pub struct CieSky {
+    /// The number of its type, from 1 to 16.
+    pub number: u8,
+    /// The sun that its luminances depend on; of most types.
+    pub sun: Option<SkyPoint>,
+    /// Its horizontal illuminance in lx.
+    pub lx: f64,
+    /// Where on the earth it is, where that is known.
+    pub site: Option<Site>,
+}
+
 impl Subject {
     pub(super) fn new(arguments: &SkyArguments) -> Result<Self, CliError> {
+        let needs_no_time = arguments.positions.is_some();
         if let Some(path) = &arguments.weather {
-            return Self::of_weather(path, arguments);
+            return Self::of_weather(path, arguments.time.as_ref(), needs_no_time);
         }
         match (&arguments.project, arguments.cie) {
-            (Some(path), _) => Self::of_project(path, arguments.positions.is_some()),
+            (Some(path), _) => Self::of_project(&project::open(path)?, needs_no_time),
             (None, Some(number)) => {
-                let sky = of_options(number, arguments).map_err(CliError::new)??;
-                let site = arguments.site;
-                let (name, title) = (String::new(), String::new());
-                Ok(Self { name, title, sky: Some(sky), site, warnings: Vec::new() })
+                let sun = arguments.altitude.zip(arguments.azimuth);
+                let sun =
+                    sun.map(|(altitude_deg, azimuth_deg)| SkyPoint { altitude_deg, azimuth_deg });
+                Self::cie(CieSky { number, sun, lx: arguments.lx, site: arguments.site })
             }
             (None, None) => {
                 let (name, title) = (String::new(), String::new());
@@ -54,16 +70,22 @@ impl Subject {
         }
     }
 
-    fn of_project(path: &Path, needs_no_time: bool) -> Result<Self, CliError> {
-        let project = project::open(path)?;
+    /// A CIE sky by itself.
+    pub(crate) fn cie(wanted: CieSky) -> Result<Self, CliError> {
+        let sky = of_options(wanted).map_err(CliError::new)??;
+        let (name, title) = (String::new(), String::new());
+        Ok(Self { name, title, sky: Some(sky), site: wanted.site, warnings: Vec::new() })
+    }
+
+    /// The outside of a project; without a sky where it has no time and needs none.
+    pub(crate) fn of_project(project: &Project, needs_no_time: bool) -> Result<Self, CliError> {
         let title = project.title().to_owned();
-        let project::Project { name, loaded, .. } = project;
+        let Project { name, loaded, .. } = project;
+        let name = name.clone();
         let refuse = |message: &str| CliError::in_file(&name, None, message);
-        let (environment, facts) = loaded
-            .scene
-            .environment
-            .zip(loaded.sky)
-            .ok_or_else(|| refuse("nothing is outside; add [sky]"))?;
+        let outside = loaded.scene.environment.clone().zip(loaded.sky.clone());
+        let (environment, facts) =
+            outside.ok_or_else(|| refuse("nothing is outside; add [sky]"))?;
         let site = facts.site;
         let warnings = loaded.warnings.iter().map(ToString::to_string).collect();
         let sky = if !facts.lacks_time() {
@@ -79,27 +101,38 @@ impl Subject {
         Ok(Self { name, title, sky, site, warnings })
     }
 
-    /// What a weather file says of a time, with the disk of the sun.
-    fn of_weather(path: &Path, arguments: &SkyArguments) -> Result<Self, CliError> {
+    fn of_weather(
+        path: &Path,
+        time: Option<&LocalTime>,
+        needs_no_time: bool,
+    ) -> Result<Self, CliError> {
         let file = name_of(path);
-        let refuse = |message: String| CliError::in_file(&file, None, message);
         let read = bytes_of(path, FileKind::Weather)
             .and_then(|bytes| Weather::parse(&bytes).map_err(|error| Failure::new(&file, &error)));
         let read = read.map_err(CliError::new)?;
+        if time.is_none() && !needs_no_time {
+            let message = "no time says of which interval; expected --time, like --time \
+                           2026-03-20T12:30";
+            return Err(CliError::in_file(&file, None, message));
+        }
+        Self::of_weather_file(&file, &read, time)
+    }
+
+    /// What a weather file says of a time, with the disk of the sun; without one only of its site.
+    pub(crate) fn of_weather_file(
+        file: &str,
+        read: &ParsedWeather,
+        time: Option<&LocalTime>,
+    ) -> Result<Self, CliError> {
+        let refuse = |message: String| CliError::in_file(file, None, message);
         let site = Some(read.weather.site);
-        let warnings = read.warnings.iter().map(|warning| format!("{file}:{warning}")).collect();
-        let sky = match &arguments.time {
-            Some(time) => {
-                let at = read.weather.light_at(time);
-                Some(of_light(&file, at.map_err(|lack| refuse(lack.to_string()))?, site)?)
-            }
-            None if arguments.positions.is_some() => None,
-            None => {
-                let expected = "give --time, like --time 2026-03-20T12:30";
-                return Err(refuse(format!("no time says which interval; {expected}")));
-            }
+        let sky = |time: &LocalTime| {
+            let at = read.weather.light_at(time).map_err(|lack| refuse(lack.to_string()))?;
+            of_light(file, at, site)
         };
-        Ok(Self { name: String::new(), title: file, sky, site, warnings })
+        let sky = time.map(sky).transpose()?;
+        let warnings = read.warnings.iter().map(|warning| format!("{file}:{warning}")).collect();
+        Ok(Self { name: String::new(), title: file.to_owned(), sky, site, warnings })
     }
 
     /// Where on the earth the sun is to be listed.
@@ -139,13 +172,9 @@ fn of_light(file: &str, at: LightAt, site: Option<Site>) -> Result<ShownSky, Cli
 }
 
 /// A CIE sky; the inner error says that a sun is missing.
-fn of_options(
-    number: u8,
-    arguments: &SkyArguments,
-) -> Result<Result<ShownSky, CliError>, SkyError> {
+fn of_options(wanted: CieSky) -> Result<Result<ShownSky, CliError>, SkyError> {
+    let CieSky { number, sun, lx, site } = wanted;
     let cie = CieType::new(i64::from(number))?;
-    let sun = arguments.altitude.zip(arguments.azimuth);
-    let sun = sun.map(|(altitude_deg, azimuth_deg)| SkyPoint { altitude_deg, azimuth_deg });
     if cie.needs_sun() && sun.is_none() {
         return Ok(Err(CliError::new(format!(
             "the luminances of a CIE sky of type {number} depend on the sun; give --altitude and \
@@ -153,9 +182,9 @@ fn of_options(
         ))));
     }
     let zenith = SkyPoint { altitude_deg: 90.0, azimuth_deg: 0.0 };
-    let level = SkyLevel::HorizontalIlluminance { lx: arguments.lx };
+    let level = SkyLevel::HorizontalIlluminance { lx };
     let sky = Sky::new(Distribution::cie(cie, sun.unwrap_or(zenith)), level)?;
-    let facts = SkyFacts { model: SkyModel::Cie(cie), site: arguments.site, time: None, sun };
+    let facts = SkyFacts { model: SkyModel::Cie(cie), site, time: None, sun };
     let environment = Environment {
         sky,
         sun: None,
@@ -183,7 +212,7 @@ impl ShownSky {
     }
 
     /// The luminance of the sky in a direction of the compass.
-    pub(super) fn luminance_cd_m2(&self, altitude_deg: f64, azimuth_deg: f64) -> f64 {
+    pub(crate) fn luminance_cd_m2(&self, altitude_deg: f64, azimuth_deg: f64) -> f64 {
         let point = SkyPoint { altitude_deg, azimuth_deg };
         // The horizon itself is sky.
         let [x, y, z] = point.to_direction();
