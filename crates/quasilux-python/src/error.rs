@@ -69,8 +69,10 @@ fn with_parts(py: Python<'_>, file: Option<&str>, place: Option<Position>, messa
 }
 
 /// Options of the command line that are parameters of another name.
-const RENAMED: [[&str; 2]; 3] = [
+const RENAMED: [[&str; 2]; 5] = [
     ["--abs-tol", "abs_tol_lx"],
+    ["--altitude and --azimuth", "sun_deg"],
+    ["--occupied", "occupied_h"],
     ["--time", "time_s"],
     ["--checkpoint-every", "checkpoint_every_s"],
 ];

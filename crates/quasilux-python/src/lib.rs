@@ -10,12 +10,15 @@ mod bsdf;
 mod command_line;
 mod drawing;
 mod error;
+mod following;
 mod outcome;
 mod photometry;
 mod points;
 mod progress;
 mod scene;
 mod simulation;
+mod sky;
+mod year;
 
 use pyo3::prelude::*;
 
@@ -32,5 +35,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     outcome::register(module)?;
     progress::register(module)?;
     simulation::register(module)?;
+    sky::register(module)?;
+    year::register(module)?;
     blocks::register(module)
 }

@@ -3,7 +3,7 @@
 use crate::arrays::read_only;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
-use quasilux::embedded::{self, CliError, Finished, Project, Stopped};
+use quasilux::embedded::{self, Finished, Project, Stopped};
 use quasilux_report::{CameraReport, CertifiedFigure, SensorReport, Style, json, number, table};
 use quasilux_scene::{Grid, Quantity};
 use quasilux_transport::{Estimates, Pixel, PointStatus, SensorEstimates};
@@ -24,14 +24,6 @@ pub(crate) fn unseen_lx(estimates: &Estimates, sensor: usize) -> Vec<f64> {
         Some(unseen) => unseen.point_lx.clone(),
         None => vec![f64::NAN; direct_lx.len()],
     }
-}
-
-/// Why a run has no results.
-pub(crate) enum Failure {
-    /// Its options or its scene make no sense.
-    Refused(CliError),
-    /// Its workers failed.
-    Raised(PyErr),
 }
 
 /// A finished run.

@@ -3,19 +3,23 @@
 #![allow(clippy::disallowed_methods, reason = "runs are watched by the clock")]
 
 use crate::arrays::read_only;
-use crate::outcome::{Failure, unseen_lx};
+use crate::following::Line;
+use crate::outcome::unseen_lx;
+use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::PyStopIteration;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use quasilux::embedded::{Event, Finished, Project};
+use quasilux::embedded::{Event, Project};
 use quasilux_scene::{Sensor, SensorShape};
 use quasilux_transport::{Control, Estimates, Progress as Counts};
-use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, Sender};
+use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 /// Adds the class to the module.
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_class::<YearProgress>()?;
     module.add_class::<Progress>()
 }
 
@@ -27,7 +31,8 @@ pub(crate) enum News {
     Progress(Box<Standing>),
     /// The run waits for an answer.
     Checkpoint(Box<Standing>),
-    Finished(Box<Result<Finished, Failure>>),
+    /// How far a year is.
+    Year(YearProgress),
 }
 
 /// How far a run is.
@@ -60,12 +65,9 @@ pub(crate) struct Reporter {
 }
 
 impl Reporter {
-    pub(crate) fn new(
-        news: Sender<News>,
-        answers: Receiver<Control>,
-        project: Arc<Project>,
-    ) -> Self {
+    pub(crate) fn new(line: Line, project: Arc<Project>) -> Self {
         let start = Instant::now();
+        let Line { news, answers, .. } = line;
         Self { news, answers, project, start, told: None, counts: None }
     }
 
@@ -145,12 +147,65 @@ fn largest(a: Option<f64>, b: Option<f64>) -> Option<f64> {
     a.map_or(b, |a| Some(b.map_or(a, |b| a.max(b))))
 }
 
+/// Tells the caller's thread of a year; any thread may ask it whether to go on.
+pub(crate) struct YearReporter {
+    news: Mutex<Told>,
+    stop: Arc<AtomicBool>,
+    start: Instant,
+}
+
+/// What the caller was told of last, if anybody wants to know.
+struct Told {
+    news: Option<Sender<News>>,
+    next: Instant,
+}
+
+impl YearReporter {
+    pub(crate) fn new(line: Line) -> Self {
+        let start = Instant::now();
+        let told = Told { news: Some(line.news).filter(|_| line.is_heard), next: start };
+        Self { news: Mutex::new(told), stop: line.stop, start }
+    }
+
+    /// Passes on what share is over, now and then, and says whether to go on.
+    pub(crate) fn tell(&self, done: f64) -> Control {
+        if self.stop.load(Ordering::Relaxed) {
+            return Control::Stop;
+        }
+        // Whoever finds another thread at it has nothing to add.
+        if let Ok(mut told) = self.news.try_lock()
+            && Instant::now() >= told.next
+        {
+            told.next = Instant::now() + EVERY;
+            let seconds = self.start.elapsed().as_secs_f64();
+            let news = told.news.as_ref();
+            _ = news.map(|news| news.send(News::Year(YearProgress { done, seconds })));
+        }
+        Control::Continue
+    }
+}
+
+/// How far a year is: what a callback gets.
+#[pyclass(frozen, get_all, module = "quasilux._native")]
+pub(crate) struct YearProgress {
+    done: f64,
+    seconds: f64,
+}
+
+#[pymethods]
+impl YearProgress {
+    fn __repr__(&self) -> String {
+        let Self { done, seconds } = self;
+        format!("<quasilux.YearProgress {:.0} % done, {seconds:.1} s>", 100.0 * done)
+    }
+}
+
 /// Calls back with news; an answer that is true, and `StopIteration`, stop the run.
 pub(crate) fn answer(py: Python<'_>, callback: &Py<PyAny>, news: News) -> PyResult<Control> {
     let progress = match news {
-        News::Progress(standing) => Progress::new(py, *standing, false)?,
-        News::Checkpoint(standing) => Progress::new(py, *standing, true)?,
-        News::Finished(_) => return Ok(Control::Continue),
+        News::Progress(standing) => Progress::new(py, *standing, false)?.into_bound_py_any(py)?,
+        News::Checkpoint(standing) => Progress::new(py, *standing, true)?.into_bound_py_any(py)?,
+        News::Year(progress) => progress.into_bound_py_any(py)?,
     };
     match callback.bind(py).call1((progress,)).and_then(|answer| answer.is_truthy()) {
         Ok(false) => Ok(Control::Continue),

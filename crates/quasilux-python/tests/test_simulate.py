@@ -26,6 +26,7 @@ from rooms import (
     same_bits,
     write_room,
 )
+from years import terrace
 
 import quasilux
 from quasilux import Progress
@@ -70,6 +71,9 @@ def test_results_are_those_of_the_command_line(
     for file in files:
         if not file.endswith(".json"):
             assert (out / file).read_bytes() == (tmp_path / "ours" / file).read_bytes(), file
+    for path in map(Path, result.to_csv(tmp_path / "tables")):
+        assert path.read_bytes() == (out / path.name).read_bytes()
+        assert result[path.stem].to_csv() == path.read_text()
 
 
 def test_no_bit_depends_on_threads() -> None:
@@ -416,6 +420,24 @@ def test_two_processes_simulate_at_once(method: str) -> None:
     context = multiprocessing.get_context(method)
     with ProcessPoolExecutor(2, mp_context=context) as pool:
         assert all(map(same_bits, pool.map(seeded, range(4)), expected))
+
+
+def all_that_computes(_: int) -> tuple[str, bytes, int]:
+    """Calls that have threads: of a scene, a run, its pictures and a year."""
+    result = quasilux.simulate(room(), **FEW)
+    found = len(room().check())
+    year = quasilux.annual(terrace(), samples=8)
+    return year.to_csv(), result["desk"]._repr_png_() or b"", found
+
+
+@pytest.mark.skipif(
+    "fork" not in multiprocessing.get_all_start_methods(), reason="there is no fork here"
+)
+def test_a_process_that_has_computed_may_be_forked() -> None:
+    expected = all_that_computes(0)
+    context = multiprocessing.get_context("fork")
+    with ProcessPoolExecutor(1, mp_context=context) as pool:
+        assert pool.submit(all_that_computes, 1).result(timeout=120) == expected
 
 
 def resident_bytes() -> int:

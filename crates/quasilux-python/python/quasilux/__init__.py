@@ -13,7 +13,7 @@
 208.3 lx
 
 Submodules: `quasilux.qmc` (point sets), `quasilux.photometry` (luminaires), `quasilux.bsdf`
-(measured surfaces), `quasilux.ray` (simulations on a cluster).
+(measured surfaces), `quasilux.sky` (skies and the sun), `quasilux.ray` (simulations on a cluster).
 """
 
 from __future__ import annotations
@@ -23,59 +23,85 @@ import importlib.util
 from typing import TYPE_CHECKING, Any
 
 from quasilux import _native
-from quasilux._native import InputError, Progress
+from quasilux._native import InputError, Progress, YearProgress
 
 if TYPE_CHECKING:
-    from quasilux import bsdf, photometry, qmc, ray
+    from quasilux import bsdf, photometry, qmc, ray, sky
+    from quasilux._annual import annual
+    from quasilux._camera_result import CameraResult
     from quasilux._caveat import Caveat
     from quasilux._figure import Figure
+    from quasilux._figures import Figures
     from quasilux._finding import Check, Finding
+    from quasilux._grid import Grid
     from quasilux._result import Result
     from quasilux._scene import Scene, SensorPlace, load
-    from quasilux._sensor_result import CameraResult, Grid, SensorResult
+    from quasilux._sensor_result import SensorResult
+    from quasilux._sensor_year import DaylightLevel, SensorYear, ShareOfPoints
     from quasilux._simulation import resume, simulate
+    from quasilux._year import BlindsOfYear, Calendar, LampZone, Year
 
 __version__: str = _native.__version__
 
 __all__ = [
+    "BlindsOfYear",
+    "Calendar",
     "CameraResult",
     "Caveat",
     "Check",
+    "DaylightLevel",
     "Figure",
+    "Figures",
     "Finding",
     "Grid",
     "InputError",
+    "LampZone",
     "Progress",
     "Result",
     "Scene",
     "SensorPlace",
     "SensorResult",
+    "SensorYear",
+    "ShareOfPoints",
+    "Year",
+    "YearProgress",
     "__version__",
+    "annual",
     "bsdf",
     "load",
     "photometry",
     "qmc",
     "resume",
     "simulate",
+    "sky",
 ]
 
 # What is imported when it is first asked for: importing the package takes a few milliseconds.
 _HOMES = {
-    "CameraResult": "_sensor_result",
+    "BlindsOfYear": "_year",
+    "Calendar": "_year",
+    "CameraResult": "_camera_result",
     "Caveat": "_caveat",
     "Check": "_finding",
+    "DaylightLevel": "_sensor_year",
     "Figure": "_figure",
+    "Figures": "_figures",
     "Finding": "_finding",
-    "Grid": "_sensor_result",
+    "Grid": "_grid",
+    "LampZone": "_year",
     "Result": "_result",
     "Scene": "_scene",
     "SensorPlace": "_scene",
     "SensorResult": "_sensor_result",
+    "SensorYear": "_sensor_year",
+    "ShareOfPoints": "_sensor_year",
+    "Year": "_year",
+    "annual": "_annual",
     "load": "_scene",
     "resume": "_simulation",
     "simulate": "_simulation",
 }
-_SUBMODULES = frozenset({"bsdf", "photometry", "qmc", "ray"})
+_SUBMODULES = frozenset({"bsdf", "photometry", "qmc", "ray", "sky"})
 
 
 def __getattr__(name: str) -> Any:

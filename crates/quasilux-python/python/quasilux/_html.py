@@ -4,18 +4,17 @@ from __future__ import annotations
 
 import base64
 from html import escape
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from quasilux._result import Result
-    from quasilux._scene import Scene
+    from quasilux._shapes import Room, Run
 
 _LEFT = 'style="text-align: left; vertical-align: top"'
 
 
-def result(found: Result) -> str:
+def result(found: Run, png: bytes | None) -> str:
     """Return the figures of each sensor and camera as the terminal's table has them."""
     parts = []
     if found.sensors:
@@ -44,12 +43,11 @@ def result(found: Result) -> str:
         parts.append(_table(heads, rows))
     parts.append(f"<p>{escape(_facts(found))}</p>")
     parts.extend(map(_warning, found.warnings))
-    return "".join(["<div>", *parts, _image(found._repr_png_(), "first picture"), "</div>"])
+    return "".join(["<div>", *parts, _image(png, "first picture"), "</div>"])
 
 
-def scene(found: Scene) -> str:
+def scene(found: Room, contents: dict[str, Any], plan: bytes) -> str:
     """Return what was understood of a scene, and its plan."""
-    contents = found._contents
     materials = [
         entry["name"] + (" (not diffuse)" if entry["kind"] != "diffuse" else "")
         for entry in contents["materials"]
@@ -75,11 +73,11 @@ def scene(found: Scene) -> str:
     )
     warnings = "".join(map(_warning, found.warnings))
     heading = f"<b>{escape(found.name)}</b>"
-    image = _image(found._repr_png_(), "plan")
+    image = _image(plan, "plan")
     return f"<div>{heading}<table>{lines}</table>{warnings}{image}</div>"
 
 
-def _facts(found: Result) -> str:
+def _facts(found: Run) -> str:
     confidence = 100.0 * found.settings["confidence"]
     tolerance = 100.0 * found.settings["rel_tol"]
     verdict = "reached" if found.tolerance_reached else f"not reached: {found.stopped}"

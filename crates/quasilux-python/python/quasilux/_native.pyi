@@ -19,15 +19,20 @@ __all__ = [
     "MAX_BSDF_BYTES",
     "MAX_PHOTOMETRY_BYTES",
     "MAX_TILT_BYTES",
+    "MAX_WEATHER_BYTES",
     "Outcome",
     "PointSet",
     "Progress",
     "SOBOL_DIMENSIONS",
     "Scene",
+    "Sky",
     "StateError",
     "Surface",
+    "YearProgress",
     "__version__",
+    "annual",
     "bsdf_directions",
+    "check_site",
     "command_line",
     "discrepancy",
     "exchange_change",
@@ -43,6 +48,8 @@ __all__ = [
     "read_photometry",
     "resume",
     "simulate",
+    "solar_day",
+    "sun_positions",
     "to_normal",
 ]
 
@@ -205,6 +212,77 @@ def resume(
     scene: Scene | None = None,
     callback: Callable[[Progress], object] | None = None,
 ) -> Outcome: ...
+
+# years
+
+@final
+class YearProgress:
+    """How far a year is.
+
+    Attributes
+    ----------
+    done : float
+        Share of the work that seems to be done, in [0, 1].
+    seconds : float
+        What the year took so far, in s.
+    """
+
+    @property
+    def done(self) -> float: ...
+    @property
+    def seconds(self) -> float: ...
+
+@type_check_only
+class BlindsEntry(TypedDict):
+    name: str
+    positions: list[str]
+    position: NDArray[np.int64]
+
+@type_check_only
+class YearEntry(TypedDict):
+    table: str
+    is_complete: bool
+    files: dict[str, bytes]
+    intervals: dict[str, Any]
+    blinds: list[BlindsEntry]
+
+def annual(
+    scene: Scene,
+    options: Sequence[str],
+    callback: Callable[[YearProgress], object] | None = None,
+) -> YearEntry: ...
+
+# sky
+
+MAX_WEATHER_BYTES: int
+
+@final
+class Sky:
+    @staticmethod
+    def of_scene(scene: Scene) -> Sky: ...
+    @staticmethod
+    def of_weather(file: str, data: bytes, time: str) -> Sky: ...
+    @staticmethod
+    def cie(number: int, sun: Sequence[float] | None, lx: float) -> Sky: ...
+    def document(self) -> str: ...
+    def text(self) -> str: ...
+    def drawing(self) -> Drawing: ...
+    def luminance_cd_m2(self, directions_deg: NDArray[np.float64]) -> NDArray[np.float64]: ...
+
+@type_check_only
+class DayEntry(TypedDict):
+    up_h: list[list[float]]
+    highest_h: float
+    highest_deg: list[float]
+
+def check_site(place: Sequence[float]) -> None: ...
+def sun_positions(
+    place: Sequence[float], times: NDArray[np.float64]
+) -> NDArray[np.float64]: ...
+def solar_day(place: Sequence[float], year: int, month: int, day: int) -> DayEntry: ...
+
+# figures
+
 def figure_text(value: float | None, half_width: float | None) -> str: ...
 
 # drawing

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numbers
 import operator
 import os
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -74,6 +75,15 @@ class Options:
             self._put(option, value)
         elif value is not None:
             self._put(option, _number(name, value, 'a number, or percent as in "1%"'))
+
+    def span(self, option: str, name: str, value: tuple[float, float] | None) -> None:
+        """Add a pair of numbers, from one to the other."""
+        if value is None:
+            return
+        if isinstance(value, str) or not isinstance(value, Sequence) or len(value) != 2:
+            raise TypeError(f"{name} is {value!r}; expected two numbers")
+        start, end = (_number(name, x, "two numbers") for x in value)
+        self._put(option, f"{start}-{end}")
 
     def name(self, option: str, name: str, value: str | None) -> None:
         """Add a name out of a few."""

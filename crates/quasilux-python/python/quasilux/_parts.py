@@ -99,10 +99,25 @@ class Description:
                 raise input_error(f'{origin}["name"] is {table["name"]!r}; expected {name!r}')
             self._written.table(f"[[{section}]]", {"name": name, **table}, origin)
 
-    def simulation(self, simulation: Mapping[str, Any] | None) -> None:
-        """Add settings of runs."""
-        if simulation:
-            self._written.table("[simulation]", simulation, "simulation")
+    def section(self, name: str, entries: Mapping[str, Any] | None) -> None:
+        """Add a table that is there at most once, with its file where that is in memory."""
+        if entries:
+            endings = {"weather": "epw", "sky": "hdr", "annual": "csv", "blinds": "csv"}
+            key = "file" if name in ("weather", "sky") else "schedule"
+            ending = endings.get(name)
+            if ending is not None:
+                entries = self._with_file(entries, key, name, name, lambda _: ending)
+            self._written.table(f"[{name}]", entries, name)
+
+    def section_or_entries(
+        self, name: str, entries: Mapping[str, Any] | Iterable[Mapping[str, Any]] | None
+    ) -> None:
+        """Add a table, or several of its name."""
+        if isinstance(entries, Mapping):
+            table: Any = entries
+            self.section(name, table)
+        elif entries is not None:
+            self.entries(name, entries)
 
     def _with_file(
         self,

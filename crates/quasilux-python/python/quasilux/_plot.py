@@ -13,7 +13,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
-    from quasilux._sensor_result import CameraResult, Grid, SensorResult
+    from quasilux._grid import Grid
+    from quasilux._shapes import CameraPicture, SensorValues
 
     Floats = NDArray[np.float64]
 
@@ -31,7 +32,7 @@ _CLEAR = 0.13
 
 
 def sensor(
-    found: SensorResult,
+    found: SensorValues,
     ax: Axes | None,
     *,
     value: str,
@@ -52,7 +53,7 @@ def sensor(
     return axes
 
 
-def camera(found: CameraResult, ax: Axes | None, *, colorbar: bool) -> Axes:
+def camera(found: CameraPicture, ax: Axes | None, *, colorbar: bool) -> Axes:
     """Plot what `CameraResult.plot` says."""
     optional("matplotlib", "plot")
     from matplotlib.colors import LogNorm
@@ -82,7 +83,7 @@ def _colours() -> Any:
     )
 
 
-def _plot_points(found: SensorResult, axes: Axes, value: str) -> None:
+def _plot_points(found: SensorValues, axes: Axes, value: str) -> None:
     values: Floats = getattr(found, value)
     at = np.arange(len(values))
     bars: dict[str, Any] = {"color": _native.false_colour_map(11)[5]}
@@ -94,7 +95,7 @@ def _plot_points(found: SensorResult, axes: Axes, value: str) -> None:
 
 
 def _plot_grid(
-    found: SensorResult,
+    found: SensorValues,
     grid: Grid,
     axes: Axes,
     value: str,
@@ -140,7 +141,7 @@ def _plot_grid(
                 bar.ax.axhline(grid.target_lx, color=_TARGET_INK, linewidth=1.8)
 
 
-def _noise(found: SensorResult, value: str) -> Floats:
+def _noise(found: SensorValues, value: str) -> Floats:
     """Half-widths of what is plotted, as far as they are known."""
     if value == "illuminance_lx":
         return found.half_width_lx

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import sys
-from typing import TYPE_CHECKING, TextIO
+from typing import TYPE_CHECKING, Any, TextIO
+
+from quasilux._native import Progress, YearProgress
 
 if TYPE_CHECKING:
     from collections.abc import Callable
     from types import TracebackType
 
-    from quasilux._native import Progress
+    Told = Progress | YearProgress
 
 _STEPS = 24
 _SECONDS_BETWEEN_LINES = 8.0
@@ -18,10 +20,10 @@ _SECONDS_BETWEEN_LINES = 8.0
 class Silent:
     """A context that passes a callback on, and shows nothing."""
 
-    def __init__(self, callback: Callable[[Progress], object] | None) -> None:
+    def __init__(self, callback: Callable[[Any], object] | None) -> None:
         self._callback = callback
 
-    def __enter__(self) -> Callable[[Progress], object] | None:
+    def __enter__(self) -> Callable[[Any], object] | None:
         return self._callback
 
     def __exit__(
@@ -42,7 +44,7 @@ class Bar:
         self._shown = 0
         self._next_s = _SECONDS_BETWEEN_LINES
 
-    def __enter__(self) -> Callable[[Progress], object]:
+    def __enter__(self) -> Callable[[Any], object]:
         return self._show
 
     def __exit__(
@@ -54,7 +56,7 @@ class Bar:
         if self._shown:
             self._write("\r" + " " * self._shown + "\r")
 
-    def _show(self, progress: Progress) -> None:
+    def _show(self, progress: Told) -> None:
         text = line(progress)
         if self._changes:
             blank = " " * (self._shown - len(text))
@@ -69,14 +71,16 @@ class Bar:
         self._out.flush()
 
 
-def line(progress: Progress) -> str:
+def line(progress: Told) -> str:
     """Return how far a run is as one line of text."""
     done = progress.done or 0.0
     bar = ("=" * int(done * _STEPS) + ">")[:_STEPS].ljust(_STEPS)
+    left = f"{progress.seconds * (1.0 - done) / done:.0f} s left" if done else "? s left"
+    if isinstance(progress, YearProgress):
+        return f"{bar} {progress.seconds:.0f} s, {100.0 * done:.0f} % of the year, {left}"
     rays_per_s = progress.rays / max(progress.seconds, 1e-3)
     width = progress.largest_relative_half_width
     known = "\N{PLUS-MINUS SIGN}?" if width is None else f"\N{PLUS-MINUS SIGN}{100.0 * width:.2f} %"
-    left = f"{progress.seconds * (1.0 - done) / done:.0f} s left" if done else "? s left"
     what = f"picture {progress.camera}" if progress.camera else f"{progress.samples} samples"
     rate = f"{rays_per_s * 1e-6:.2f} M rays/s"
     return f"{bar} {progress.seconds:.0f} s, {what}, {rate}, {known}, {left}"

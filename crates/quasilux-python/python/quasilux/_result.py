@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import json
 import os
 from collections.abc import Iterator, Mapping
@@ -11,9 +10,11 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from quasilux import _native
+from quasilux._camera_result import CameraResult
 from quasilux._caveat import Caveat
 from quasilux._finding import Finding
-from quasilux._sensor_result import CameraResult, SensorResult
+from quasilux._sensor_result import SensorResult
+from quasilux._stored import Stored
 
 if TYPE_CHECKING:
     import pandas
@@ -116,6 +117,12 @@ class Result(Mapping[str, SensorResult]):
         return tuple(self._document["run"]["cannot_see"])
 
     @property
+    def horizontal_illuminance_lx(self) -> float | None:
+        """What sky and sun give outside on a horizontal plane, in lx; None where nothing shines."""
+        outside = self._document.get("outside")
+        return None if outside is None else outside["horizontal_illuminance_lx"]
+
+    @property
     def samples(self) -> int:
         """Indices that each replicate used: photons, and paths for each sensor point."""
         return self._document["run"]["samples"]
@@ -196,7 +203,7 @@ class Result(Mapping[str, SensorResult]):
         """
         from quasilux import _tables
 
-        return _tables.dataset(self)
+        return _tables.dataset(self.sensors, self._document["run"])
 
     def to_pandas(self) -> pandas.DataFrame:
         """Return the values of all sensors as one table of pandas.
@@ -216,6 +223,34 @@ class Result(Mapping[str, SensorResult]):
         from quasilux import _tables
 
         return _tables.frame(self.sensors.values())
+
+    def to_csv(self, folder: str | os.PathLike[str]) -> tuple[str, ...]:
+        """Write a file NAME.csv for each sensor, as ``quasilux run`` does, and nothing else.
+
+        Parameters
+        ----------
+        folder : path-like
+            It is made where there is none. Each file appears whole or not at all.
+
+        Returns
+        -------
+        tuple of str
+            The paths of the files.
+
+        Raises
+        ------
+        OSError
+            When a file cannot be written.
+
+        See Also
+        --------
+        SensorResult.to_csv : the text of one of them.
+        """
+        os.makedirs(folder, exist_ok=True)
+        paths = {name: os.path.join(folder, f"{name}.csv") for name in self.sensors}
+        for name, path in paths.items():
+            self.sensors[name].to_csv(path)
+        return tuple(paths.values())
 
     def plot(self, sensor: str | None = None, ax: Axes | None = None, **options: Any) -> Axes:
         """Plot a sensor in false colours with matplotlib.
@@ -275,91 +310,9 @@ class Result(Mapping[str, SensorResult]):
     def _repr_html_(self) -> str:
         from quasilux import _html
 
-        return _html.result(self)
+        return _html.result(self, self._repr_png_())
 
     def _repr_png_(self) -> bytes | None:
         first = [found.name for found in self.sensors.values() if found.grid is not None]
         first += [name for name, found in self.cameras.items() if found.samples]
         return self._outcome.file(f"{first[0]}.png") if first else None
-
-
-@dataclasses.dataclass(frozen=True)
-class Stored:
-    """A run that another process finished: the same answers, without the scene."""
-
-    text: str
-    settings_text: str
-    table_text: str
-    grids_text: str
-    stopped: str | None
-    sensors: list[dict[str, Any]]
-    point_statuses: list[list[str] | None]
-    cameras: list[dict[str, Any] | None]
-    files: dict[str, bytes]
-
-    @classmethod
-    def of(cls, outcome: _native.Outcome | Stored) -> Stored:
-        """Return what a run knows."""
-        if isinstance(outcome, Stored):
-            return outcome
-        text = outcome.document()
-        document = json.loads(text)
-        return cls(
-            text=text,
-            settings_text=outcome.settings(),
-            table_text=outcome.table(),
-            grids_text=outcome.grids(),
-            stopped=outcome.stopped,
-            sensors=[outcome.sensor_arrays(i) for i in range(len(document["sensors"]))],
-            point_statuses=[outcome.statuses(i) for i in range(len(document["sensors"]))],
-            cameras=[outcome.camera_arrays(i) for i in range(len(document["cameras"]))],
-            files={name: outcome.file(name) or b"" for name in outcome.file_names()},
-        )
-
-    def document(self) -> str:
-        """Return the result document."""
-        return self.text
-
-    def settings(self) -> str:
-        """Return all settings as JSON."""
-        return self.settings_text
-
-    def table(self) -> str:
-        """Return the table of the terminal."""
-        return self.table_text
-
-    def grids(self) -> str:
-        """Return the grid of each sensor as JSON."""
-        return self.grids_text
-
-    def sensor_arrays(self, index: int) -> dict[str, Any]:
-        """Return the arrays of a sensor."""
-        return {name: _read_only(array) for name, array in self.sensors[index].items()}
-
-    def statuses(self, index: int) -> list[str] | None:
-        """Return what each point of a sensor waits for."""
-        return self.point_statuses[index]
-
-    def camera_arrays(self, index: int) -> dict[str, Any] | None:
-        """Return the arrays of a camera."""
-        arrays = self.cameras[index]
-        return arrays and {name: _read_only(array) for name, array in arrays.items()}
-
-    def file(self, name: str) -> bytes | None:
-        """Return a file of the results."""
-        return self.files.get(name)
-
-    def write(self, folder: str) -> None:
-        """Write all files."""
-        os.makedirs(folder, exist_ok=True)
-        for name, content in self.files.items():
-            beside = os.path.join(folder, f"{name}.unfinished")
-            with open(beside, "wb") as file:
-                file.write(content)
-            os.replace(beside, os.path.join(folder, name))
-
-
-def _read_only(array: Any) -> Any:
-    # Pickle makes arrays that can be written to.
-    array.flags.writeable = False
-    return array

@@ -107,6 +107,16 @@ class Scene:
         Point and area lights.
     sensors, cameras : sequence of dict, or dict of dict by name, optional
         Where light is asked for.
+    site, weather, sky, sun, ground : dict, optional
+        What is outside, such as ``sky={"model": "cie", "type": 16, "horizontal_illuminance_lx":
+        10000}``. A weather file, or the picture of a sky, has the name of its file or the bytes of
+        one as ``"file"``.
+    openings : sequence of dict, optional
+        Where light comes in; the panes of the scene where there are none.
+    annual : dict, optional
+        What a year is judged by.
+    blinds, electric_light : dict or sequence of dict, optional
+        Blinds and lamps of a year, in one group or zone or in several.
     simulation : dict, optional
         What `simulate` is asked for where its arguments do not say.
     maintenance_factor : float, default 1.0
@@ -158,6 +168,15 @@ class Scene:
         lights: Iterable[Entry] = (),
         sensors: Entries = (),
         cameras: Entries = (),
+        site: Entry | None = None,
+        weather: Entry | None = None,
+        sky: Entry | None = None,
+        sun: Entry | None = None,
+        ground: Entry | None = None,
+        openings: Iterable[Entry] = (),
+        annual: Entry | None = None,
+        blinds: Entry | Iterable[Entry] | None = None,
+        electric_light: Entry | Iterable[Entry] | None = None,
         simulation: Entry | None = None,
         maintenance_factor: float = 1.0,
         units: str = "m",
@@ -185,7 +204,12 @@ class Scene:
         described.entries("lights", lights)
         described.named("sensors", sensors)
         described.named("cameras", cameras)
-        described.simulation(simulation)
+        outside = {"site": site, "weather": weather, "sky": sky, "sun": sun, "ground": ground}
+        for section, entries in {**outside, "annual": annual, "simulation": simulation}.items():
+            described.section(section, entries)
+        described.entries("openings", openings)
+        described.section_or_entries("blinds", blinds)
+        described.section_or_entries("electric_light", electric_light)
         origins = described.origins()
         try:
             native = _native.Scene.from_parts(described.parts())
@@ -372,7 +396,7 @@ class Scene:
     def _repr_html_(self) -> str:
         from quasilux import _html
 
-        return _html.scene(self)
+        return _html.scene(self, self._contents, self.plan())
 
     def _repr_png_(self) -> bytes:
         return self.plan()

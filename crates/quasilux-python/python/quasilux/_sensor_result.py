@@ -1,13 +1,16 @@
-"""What is known of one sensor, and the picture of one camera."""
+"""What is known of one sensor."""
 
 from __future__ import annotations
 
-import dataclasses
 import json
+import os
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from quasilux._figure import Figure
+from quasilux._figures import Figures, of_points
+from quasilux._grid import Grid
+from quasilux._whole_file import write_whole
 
 if TYPE_CHECKING:
     import numpy as np
@@ -16,44 +19,9 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
-    from quasilux._result import Result
+    from quasilux._shapes import Owner
 
     Floats = NDArray[np.float64]
-
-
-@dataclasses.dataclass(frozen=True)
-class Grid:
-    """The rectangle of a grid.
-
-    Attributes
-    ----------
-    origin_m, u_m, v_m : tuple of float
-        Its corner and its two edges, in m.
-    counts : tuple of int
-        Numbers of cells along u and v.
-    quantity : {"centre", "mean"}
-        Whether a value is that at the centre of its cell, or the mean over it.
-    target_lx : float or None
-        The illuminance that is wanted everywhere.
-    """
-
-    origin_m: tuple[float, float, float]
-    u_m: tuple[float, float, float]
-    v_m: tuple[float, float, float]
-    counts: tuple[int, int]
-    quantity: str
-    target_lx: float | None
-
-    @classmethod
-    def _from_entry(cls, entry: dict[str, Any]) -> Grid:
-        return cls(
-            origin_m=tuple(entry["origin_m"]),
-            u_m=tuple(entry["u_m"]),
-            v_m=tuple(entry["v_m"]),
-            counts=tuple(entry["counts"]),
-            quantity=entry["quantity"],
-            target_lx=entry["target_lx"],
-        )
 
 
 class SensorResult:
@@ -73,7 +41,7 @@ class SensorResult:
     True
     """
 
-    def __init__(self, result: Result, index: int, entry: dict[str, Any]) -> None:
+    def __init__(self, result: Owner, index: int, entry: dict[str, Any]) -> None:
         self._result = result
         self._index = index
         self._entry = entry
@@ -206,6 +174,59 @@ class SensorResult:
         """Unit normals; light from their side counts. Shape (v, u, 3) or (n, 3)."""
         return self._arrays["normals"]
 
+    # Daylight factors: shares of the horizontal illuminance outside.
+
+    def _share(self, name: str) -> Figures | None:
+        points = self._entry["points"]
+        if not points or name not in points[0]:
+            return None
+        return Figures._of_points(points, name, self.shape)
+
+    @property
+    def daylight_factor(self) -> Figures | None:
+        """Illuminance over that outside, a share, shape (v, u) or (n,).
+
+        None where something else than the sky shines, as lamps or the sun.
+        """
+        return self._share("daylight_factor")
+
+    @property
+    def sky_component(self) -> Figures | None:
+        """What of the daylight factor comes straight from the sky, shape (v, u) or (n,).
+
+        None without a daylight factor, and where there are no openings.
+        """
+        return self._share("sky_component")
+
+    @property
+    def externally_reflected_component(self) -> Figures | None:
+        """What of it surfaces beyond the openings, or the ground, reflected last.
+
+        Shape (v, u) or (n,); None as `sky_component` is.
+        """
+        return self._share("externally_reflected_component")
+
+    @property
+    def internally_reflected_component(self) -> Figures | None:
+        """What remains of it: surfaces within reflected it last.
+
+        Shape (v, u) or (n,); None as `sky_component` is.
+        """
+        return self._share("internally_reflected_component")
+
+    @property
+    def components_unseen(self) -> Floats | None:
+        """What no path met of each of the first two components at most, with 95 %, a share.
+
+        Shape (v, u) or (n,); None as `sky_component` is. Read-only.
+        """
+        points = self._entry["points"]
+        if not points or "components_unseen" not in points[0]:
+            return None
+        return of_points(points, "components_unseen", self.shape)
+
+    # All points together.
+
     def _figure(self, name: str) -> Figure:
         return Figure._from_entry(self._entry["summary"][name])
 
@@ -246,13 +267,31 @@ class SensorResult:
         """
         from quasilux import _tables
 
-        return _tables.sensor_dataset(self)
+        return _tables.sensor_dataset(self, self._result.to_dict()["run"])
 
     def to_pandas(self) -> pandas.DataFrame:
         """Return the values as a table of pandas, one row a point; see `Result.to_pandas`."""
         from quasilux import _tables
 
         return _tables.frame([self])
+
+    def to_csv(self, path: str | os.PathLike[str] | None = None) -> str:
+        """Return the values as the file NAME.csv of ``quasilux run`` has them, a line a point.
+
+        Parameters
+        ----------
+        path : path-like, optional
+            Also write it to this file, whole or not at all.
+
+        Raises
+        ------
+        OSError
+            When the file cannot be written.
+        """
+        content = self._result._outcome.file(f"{self.name}.csv") or b""
+        if path is not None:
+            write_whole(path, content)
+        return content.decode()
 
     def plot(
         self,
@@ -310,138 +349,5 @@ class SensorResult:
         return self._result._outcome.file(f"{self.name}.png")
 
 
-class CameraResult:
-    """The picture of one camera.
-
-    All arrays are read-only, have rows from the top, and hold no number but nan where the run was
-    stopped before there was a picture.
-    """
-
-    def __init__(self, result: Result, index: int, entry: dict[str, Any]) -> None:
-        self._result = result
-        self._index = index
-        self._entry = entry
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return _camera_of, (self._result, self.name)
-
-    @property
-    def name(self) -> str:
-        """The name of the camera."""
-        return self._entry["name"]
-
-    @property
-    def resolution(self) -> tuple[int, int]:
-        """Width and height in pixels."""
-        width, height = self._entry["resolution"]
-        return width, height
-
-    @property
-    def samples(self) -> int:
-        """Paths of each pixel in each replicate; 0 where there is no picture."""
-        return self._entry["samples"]
-
-    @cached_property
-    def _arrays(self) -> dict[str, Any]:
-        arrays = self._result._outcome.camera_arrays(self._index)
-        if arrays is not None:
-            return arrays
-        import numpy as np
-
-        width, height = self.resolution
-        blank = np.full((height, width, 3), np.nan, np.float32)
-        blank.flags.writeable = False
-        plane = blank[..., 0]
-        planes = ("luminance_cd_m2", "half_width_cd_m2", "unseen_cd_m2")
-        return {"rgb_cd_m2": blank} | dict.fromkeys(planes, plane)
-
-    @property
-    def luminance_cd_m2(self) -> NDArray[np.float32]:
-        """Luminance of each pixel in cd/m2, shape (height, width)."""
-        return self._arrays["luminance_cd_m2"]
-
-    @property
-    def half_width_cd_m2(self) -> NDArray[np.float32]:
-        """Half the width of each luminance's interval in cd/m2, shape (height, width)."""
-        return self._arrays["half_width_cd_m2"]
-
-    @property
-    def unseen_cd_m2(self) -> NDArray[np.float32]:
-        """Luminance of each pixel in cd/m2 at most that no sample met, with a confidence of 95 %,
-        shape (height, width): infinite where nothing is known, not a number of plain paths."""
-        return self._arrays["unseen_cd_m2"]
-
-    @property
-    def rgb_cd_m2(self) -> NDArray[np.float32]:
-        """Linear RGB of each pixel in cd/m2, shape (height, width, 3)."""
-        return self._arrays["rgb_cd_m2"]
-
-    @property
-    def mean(self) -> Figure:
-        """Mean luminance of the picture in cd/m2."""
-        return Figure._from_entry(self._entry["mean_luminance_cd_m2"])
-
-    @property
-    def tolerance_reached(self) -> bool:
-        """Whether the picture is what was wanted."""
-        return self._entry["tolerance_reached"]
-
-    def _file(self, ending: str) -> bytes:
-        content = self._result._outcome.file(f"{self.name}.{ending}")
-        if content is None:
-            raise ValueError(f"the run was stopped before {self.name!r} had a picture")
-        return content
-
-    def png(self) -> bytes:
-        """Return the picture as it would look on a screen, as a PNG file.
-
-        Raises
-        ------
-        ValueError
-            Where there is no picture.
-        """
-        return self._file("png")
-
-    def exr(self) -> bytes:
-        """Return colours, luminances and half-widths as an OpenEXR file.
-
-        Raises
-        ------
-        ValueError
-            Where there is no picture.
-        """
-        return self._file("exr")
-
-    def plot(self, ax: Axes | None = None, *, colorbar: bool = True) -> Axes:
-        """Plot luminances in false colours on a logarithmic scale with matplotlib.
-
-        Parameters
-        ----------
-        ax : matplotlib.axes.Axes, default those of a new figure
-            Where to.
-        colorbar : bool, default True
-            Whether a bar beside it says what colours mean.
-
-        Returns
-        -------
-        matplotlib.axes.Axes
-            The axes.
-        """
-        from quasilux import _plot
-
-        return _plot.camera(self, ax, colorbar=colorbar)
-
-    def __repr__(self) -> str:
-        size = " x ".join(map(str, self.resolution))
-        return f"<quasilux.CameraResult {self.name!r}: {size} pixels, mean {self.mean} cd/m²>"
-
-    def _repr_png_(self) -> bytes | None:
-        return self.png() if self.samples else None
-
-
-def _sensor_of(result: Result, name: str) -> SensorResult:
+def _sensor_of(result: Owner, name: str) -> SensorResult:
     return result.sensors[name]
-
-
-def _camera_of(result: Result, name: str) -> CameraResult:
-    return result.cameras[name]

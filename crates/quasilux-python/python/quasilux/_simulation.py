@@ -212,7 +212,7 @@ def as_scene(scene: Scene | str | os.PathLike[str]) -> Scene:
     raise TypeError(f"scene is {type(scene).__name__}; expected a Scene or a path")
 
 
-def watching(progress: bool | Callback | None) -> Any:
+def watching(progress: bool | Callable[[Any], object] | None) -> Any:
     """Return a context in which a run calls back as its caller wants."""
     from quasilux._progress import Bar, Silent
 

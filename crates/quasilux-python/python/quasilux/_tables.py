@@ -9,13 +9,12 @@ import numpy as np
 from quasilux._errors import optional
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Mapping
 
     import pandas
     import xarray
 
-    from quasilux._result import Result
-    from quasilux._sensor_result import SensorResult
+    from quasilux._shapes import SensorValues
 
 _VARIABLES = {
     "": ("illuminance_lx", "illuminance"),
@@ -27,20 +26,20 @@ _VARIABLES = {
 }
 
 
-def sensor_dataset(sensor: SensorResult) -> xarray.Dataset:
+def sensor_dataset(sensor: SensorValues, run: dict[str, Any]) -> xarray.Dataset:
     """Return one sensor, in names of its own."""
     xarray = optional("xarray", "tables")
     variables, coordinates = _parts(sensor, "", "illuminance")
-    attributes = {"sensor": sensor.name, **_attributes(sensor._result)}
+    attributes = {"sensor": sensor.name, **_attributes(run)}
     return xarray.Dataset(variables, coordinates, attributes)
 
 
-def dataset(result: Result) -> xarray.Dataset:
+def dataset(sensors: Mapping[str, SensorValues], run: dict[str, Any]) -> xarray.Dataset:
     """Return all sensors, each in names that begin with its own."""
     xarray = optional("xarray", "tables")
     variables: dict[str, Any] = {}
     coordinates: dict[str, Any] = {}
-    for name, sensor in result.sensors.items():
+    for name, sensor in sensors.items():
         more, places = _parts(sensor, f"{name}_", name)
         twice = (variables.keys() | coordinates.keys()) & (more.keys() | places.keys())
         if twice:
@@ -50,12 +49,11 @@ def dataset(result: Result) -> xarray.Dataset:
             )
         variables.update(more)
         coordinates.update(places)
-    return xarray.Dataset(variables, coordinates, _attributes(result))
+    return xarray.Dataset(variables, coordinates, _attributes(run))
 
 
-def _attributes(result: Result) -> dict[str, Any]:
+def _attributes(run: dict[str, Any]) -> dict[str, Any]:
     """What NetCDF can hold of how the results were made."""
-    run = result.to_dict()["run"]
     names = ["version", "scene_sha256", "estimator", "sequence", "randomization", "confidence"]
     names += ["replicates", "seed", "samples", "rays", "rel_tol"]
     attributes = {name: run[name] for name in names}
@@ -63,7 +61,7 @@ def _attributes(result: Result) -> dict[str, Any]:
     return attributes
 
 
-def _parts(sensor: SensorResult, prefix: str, name: str) -> tuple[dict[str, Any], dict[str, Any]]:
+def _parts(sensor: SensorValues, prefix: str, name: str) -> tuple[dict[str, Any], dict[str, Any]]:
     """Return variables and coordinates of a sensor."""
     dims = [f"{prefix}{axis}" for axis in (["point"] if sensor.grid is None else ["v", "u"])]
     variables = {}
@@ -79,7 +77,7 @@ def _parts(sensor: SensorResult, prefix: str, name: str) -> tuple[dict[str, Any]
     return variables, coordinates
 
 
-def _lengths(sensor: SensorResult, dims: list[str]) -> dict[str, Any]:
+def _lengths(sensor: SensorValues, dims: list[str]) -> dict[str, Any]:
     """Return lengths along the edges of a grid, or numbers of points."""
     if sensor.grid is None:
         return {dims[0]: np.arange(len(sensor.illuminance_lx))}
@@ -92,14 +90,14 @@ def _lengths(sensor: SensorResult, dims: list[str]) -> dict[str, Any]:
     return found
 
 
-def frame(sensors: Iterable[SensorResult]) -> pandas.DataFrame:
+def frame(sensors: Iterable[SensorValues]) -> pandas.DataFrame:
     """Return sensors one below the other, one row a point."""
     pandas = optional("pandas", "tables")
     frames = [pandas.DataFrame(_columns(sensor, pandas)) for sensor in sensors]
     return pandas.concat(frames, ignore_index=True) if frames else pandas.DataFrame()
 
 
-def _columns(sensor: SensorResult, pandas: Any) -> dict[str, Any]:
+def _columns(sensor: SensorValues, pandas: Any) -> dict[str, Any]:
     points = sensor.illuminance_lx.size
     if sensor.grid is None:
         i = j = pandas.array([pandas.NA] * points, dtype="Int64")

@@ -113,12 +113,23 @@ def _value(value: object, origin: str) -> str:
         return quoted(os.fsdecode(path).replace(os.sep, "/"), origin)
     if isinstance(value, np.ndarray):
         return _array(value, origin)
+    if isinstance(value, Mapping):
+        return _inline_table(value, origin)
     if isinstance(value, Sequence) and not isinstance(value, (bytes, bytearray, memoryview)):
         return "[" + ", ".join(_value(part, f"{origin}[{i}]") for i, part in enumerate(value)) + "]"
     raise TypeError(
-        f"{origin} is {type(value).__name__}; expected a number, text, True or False, or a list "
-        "or an array of them"
+        f"{origin} is {type(value).__name__}; expected a number, text, True or False, or a list, "
+        "an array or a dict of them"
     )
+
+
+def _inline_table(value: Mapping[Any, Any], origin: str) -> str:
+    for key in value:
+        if not isinstance(key, str):
+            raise TypeError(f"{origin} has the key {key!r}; expected text")
+    known = ((key, part) for key, part in value.items() if part is not None)
+    parts = [_key(key) + " = " + _value(part, f'{origin}["{key}"]') for key, part in known]
+    return f"{{ {', '.join(parts)} }}"
 
 
 def _number(value: float, origin: str) -> str:

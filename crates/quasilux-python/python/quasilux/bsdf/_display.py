@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
@@ -12,8 +13,37 @@ from quasilux.photometry import _display
 from quasilux.photometry._display import short as short
 
 if TYPE_CHECKING:
-    from quasilux.bsdf._surface import Bsdf
+    from numpy.typing import ArrayLike
+
+    from quasilux.bsdf._facts import Mode
     from quasilux.photometry._arrays import Floats
+    from quasilux.photometry._diagram import Diagram
+    from quasilux.photometry._facts import FileWarning
+
+
+class Described(Protocol):
+    """What is said of a surface; properties are cached where the surface caches them."""
+
+    @property
+    def title(self) -> str: ...
+    @property
+    def manufacturer(self) -> str: ...
+    @property
+    def format(self) -> str: ...
+    @property
+    def thickness_m(self) -> float | None: ...
+    @property
+    def is_isotropic(self) -> bool: ...
+    @cached_property
+    def tables(self) -> tuple[_tables.Table, ...]: ...
+    @cached_property
+    def energy(self) -> tuple[EnergyBalance, ...]: ...
+    @cached_property
+    def reciprocity(self) -> tuple[Reciprocity, ...]: ...
+    @property
+    def warnings(self) -> tuple[FileWarning, ...]: ...
+    def albedo(self, wi: ArrayLike, *, side: Side, mode: Mode) -> Floats: ...
+    def diagram(self) -> Diagram: ...
 
 
 def table_entry(table: _tables.Table) -> dict[str, Any]:
@@ -27,7 +57,7 @@ def table_entry(table: _tables.Table) -> dict[str, Any]:
     return {"side": table.side, "mode": table.mode, "kind": table.kind, "incidences": incidences}
 
 
-def shares(surface: Bsdf, side: Side, incidences: Floats, wi: Floats) -> list[dict[str, float]]:
+def shares(surface: Described, side: Side, incidences: Floats, wi: Floats) -> list[dict[str, float]]:
     """Return what is reflected and transmitted of light from each direction."""
     reflectance = surface.albedo(wi, side=side, mode="reflection").tolist()
     transmittance = surface.albedo(wi, side=side, mode="transmission").tolist()
@@ -66,12 +96,12 @@ def incidence_text(theta_deg: float, phi_deg: float) -> str:
     return theta if phi_deg == 0.0 else f"{theta}, {phi}"
 
 
-def html(surface: Bsdf) -> str:
+def html(surface: Described) -> str:
     """Return the facts of a surface above its lobes."""
     return _display.table(surface.title, _rows(surface), surface.diagram())
 
 
-def _rows(surface: Bsdf) -> list[tuple[str, str]]:
+def _rows(surface: Described) -> list[tuple[str, str]]:
     """Facts in the order of the command line's summary."""
     thickness = surface.thickness_m
     rows = [

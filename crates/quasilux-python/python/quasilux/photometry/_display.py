@@ -3,18 +3,46 @@
 from __future__ import annotations
 
 import base64
+from functools import cached_property
 from html import escape
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from quasilux.photometry._diagram import Diagram
-    from quasilux.photometry._facts import PlaneCurve
-    from quasilux.photometry._luminaire import Photometry
+    from quasilux.photometry._facts import Analysis, Facts, FileWarning, LuminousShape, PlaneCurve
 
 _LONGEST = 60
 _LEFT = 'style="text-align: left; vertical-align: top"'
+
+
+class Described(Protocol):
+    """What is said of a luminaire; properties are cached where the luminaire caches them."""
+
+    @property
+    def title(self) -> str: ...
+    @property
+    def manufacturer(self) -> str: ...
+    @property
+    def standard(self) -> str: ...
+    @property
+    def type(self) -> str: ...
+    @property
+    def symmetry(self) -> str: ...
+    @property
+    def counts(self) -> str: ...
+    @cached_property
+    def luminous_shape(self) -> LuminousShape: ...
+    @property
+    def flux_lm(self) -> float: ...
+    @cached_property
+    def analysis(self) -> Analysis: ...
+    @cached_property
+    def facts(self) -> Facts: ...
+    @property
+    def warnings(self) -> tuple[FileWarning, ...]: ...
+    def diagram(self) -> Diagram: ...
 
 
 def short(title: str) -> str:
@@ -22,7 +50,7 @@ def short(title: str) -> str:
     return title if len(title) <= _LONGEST else f"{title[: _LONGEST - 1]}\N{HORIZONTAL ELLIPSIS}"
 
 
-def html(luminaire: Photometry) -> str:
+def html(luminaire: Described) -> str:
     """Return the facts of a luminaire and its polar diagram."""
     return table(luminaire.title, _rows(luminaire), luminaire.diagram())
 
@@ -40,7 +68,7 @@ def table(title: str, rows: Iterable[tuple[str, str]], diagram: Diagram) -> str:
     return f"<div><b>{escape(title)}</b><table>{lines}</table>{image}</div>"
 
 
-def _rows(luminaire: Photometry) -> list[tuple[str, str]]:
+def _rows(luminaire: Described) -> list[tuple[str, str]]:
     """Facts in the order of the command line's summary."""
     found = luminaire.analysis
     rated_lm, ratio = found.rated_flux_lm, found.light_output_ratio
@@ -63,13 +91,13 @@ def _rows(luminaire: Photometry) -> list[tuple[str, str]]:
     ]
 
 
-def _shape(luminaire: Photometry) -> str:
+def _shape(luminaire: Described) -> str:
     shape = luminaire.luminous_shape
     size = " x ".join(f"{extent:.4g}" for extent in shape.size_m)
     return f"{shape.name}, {size} m" if any(shape.size_m) else shape.name
 
 
-def _maximum(luminaire: Photometry) -> str:
+def _maximum(luminaire: Described) -> str:
     maximum = luminaire.analysis.maximum
     if maximum is None:
         return "no light"

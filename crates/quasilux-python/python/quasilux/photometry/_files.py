@@ -1,17 +1,15 @@
-"""Bytes of measurement files: where they come from, and how files are written whole."""
+"""Bytes of measurement files: where they come from."""
 
 from __future__ import annotations
 
-import contextlib
 import errno
 import os
-import secrets
-import shutil
 import stat
 from dataclasses import dataclass
 from typing import Protocol, Union
 
 from quasilux._errors import input_error, missing_file
+from quasilux._whole_file import write_whole as write_whole
 
 
 class BinaryReader(Protocol):
@@ -103,51 +101,6 @@ def _read(file: BinaryReader, most_bytes: int) -> bytes:
         pieces.append(piece)
         left -= len(piece)
     return pieces[0] if len(pieces) == 1 else b"".join(pieces)
-
-
-def write_whole(path: Path, data: bytes) -> None:
-    """Write a file that appears whole or not at all; a link to a file stays a link.
-
-    Raises
-    ------
-    OSError
-        When it cannot be written.
-    """
-    place = os.path.realpath(path)
-    if os.path.exists(place) and not os.path.isfile(place):
-        # A device or a pipe keeps its place; a folder is refused.
-        with open(place, "wb") as device:
-            device.write(data)
-        return
-    folder = os.path.dirname(place)
-    if not os.path.isdir(folder):
-        raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), folder)
-    beside = f"{place}.{secrets.token_hex(4)}.unfinished"
-    try:
-        with open(beside, "xb") as file:
-            file.write(data)
-            file.flush()
-            os.fsync(file.fileno())
-        if os.path.exists(place):
-            shutil.copymode(place, beside)
-        os.replace(beside, place)
-    except BaseException:
-        with contextlib.suppress(OSError):
-            os.unlink(beside)
-        raise
-    _sync_folder(folder)
-
-
-def _sync_folder(folder: str) -> None:
-    """Force the new name to disk, where folders can be opened."""
-    if os.name != "posix":
-        return
-    with contextlib.suppress(OSError):
-        handle = os.open(folder, os.O_RDONLY)
-        try:
-            os.fsync(handle)
-        finally:
-            os.close(handle)
 
 
 def extension(path: Path) -> str:
