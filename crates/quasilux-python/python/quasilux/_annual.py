@@ -79,8 +79,14 @@ def annual(
     Examples
     --------
     >>> year = annual("examples/daylight-office/year.toml", samples=4, abs_tol_lx=100)
-    >>> year["workplane"].illuminance_lx.shape
-    (8, 6, 8760)
+    >>> list(year), len(year.calendar)
+    (['workplane'], 8760)
+    >>> plane = year["workplane"]
+    >>> noon = (year.calendar.month == 6) & (year.calendar.middle_h == 12.5)
+    >>> plane.illuminance_lx.shape, plane.illuminance_lx[..., noon].shape
+    ((8, 6, 8760), (8, 6, 30))
+    >>> plane.sda.low <= plane.sda.value <= plane.sda.high
+    True
     """
     options = Options()
     options.share("rel-tol", "rel_tol", rel_tol)

@@ -128,18 +128,9 @@ class Year(Mapping[str, SensorYear]):
 
     Years can be pickled, hours and files with them.
 
-    Examples
+    See Also
     --------
-    >>> import quasilux
-    >>> year = quasilux.annual("examples/daylight-office/year.toml", samples=4, abs_tol_lx=100)
-    >>> list(year), len(year.calendar)
-    (['workplane'], 8760)
-    >>> plane = year["workplane"]
-    >>> noon = (year.calendar.month == 6) & (year.calendar.middle_h == 12.5)
-    >>> plane.illuminance_lx[..., noon].shape
-    (8, 6, 30)
-    >>> plane.sda.low <= plane.sda.value <= plane.sda.high
-    True
+    annual : simulates one; with an example.
     """
 
     def __init__(

@@ -331,7 +331,7 @@ class Site:
     --------
     >>> berlin = Site(52.5, 13.4, 1)
     >>> berlin.sun("2026-06-21T12:00").round(1)
-    array([ 60.9, 174.8])
+    array([ 60.9, 176.1])
     """
 
     latitude_deg: float
@@ -405,7 +405,7 @@ class Site:
         --------
         >>> day = Site(52.5, 13.4, 1).day("2026-06-21")
         >>> [round(hour, 1) for hour in day.up_h[0]]
-        [3.8, 20.5]
+        [3.8, 20.4]
         """
         day = datetime.date.fromisoformat(date) if isinstance(date, str) else date
         entry = _native.solar_day(self._place, day.year, day.month, day.day)
