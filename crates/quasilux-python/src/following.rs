@@ -1,7 +1,7 @@
 //! Work on a thread of its own, while the caller's waits for news, calls back and hears Ctrl-C.
 
 use crate::error::from_command_line;
-use crate::progress::{News, answer};
+use crate::progress::{Line, News, answer};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use quasilux::embedded::CliError;
@@ -21,16 +21,6 @@ pub(crate) enum Failure {
     Refused(CliError),
     /// Its workers failed.
     Raised(PyErr),
-}
-
-/// The worker's end: where its news go, and answers come from.
-pub(crate) struct Line {
-    pub(crate) news: Sender<News>,
-    pub(crate) answers: Receiver<Control>,
-    /// Whether it is to end.
-    pub(crate) stop: Arc<AtomicBool>,
-    /// Whether anybody is called back.
-    pub(crate) is_heard: bool,
 }
 
 /// Does work on a thread of its own and waits for it.

@@ -3,7 +3,6 @@
 #![allow(clippy::disallowed_methods, reason = "runs are watched by the clock")]
 
 use crate::arrays::read_only;
-use crate::following::Line;
 use crate::outcome::unseen_lx;
 use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::PyStopIteration;
@@ -33,6 +32,16 @@ pub(crate) enum News {
     Checkpoint(Box<Standing>),
     /// How far a year is.
     Year(YearProgress),
+}
+
+/// The worker's end: where its news go, and answers come from.
+pub(crate) struct Line {
+    pub(crate) news: Sender<News>,
+    pub(crate) answers: Receiver<Control>,
+    /// Whether it is to end.
+    pub(crate) stop: Arc<AtomicBool>,
+    /// Whether anybody is called back.
+    pub(crate) is_heard: bool,
 }
 
 /// How far a run is.

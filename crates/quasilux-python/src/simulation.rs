@@ -2,9 +2,9 @@
 
 use crate::blocks::PythonWorkers;
 use crate::error::from_command_line;
-use crate::following::{self, Failure, Line};
+use crate::following::{self, Failure};
 use crate::outcome::Outcome;
-use crate::progress::Reporter;
+use crate::progress::{Line, Reporter};
 use crate::scene::Scene;
 use pyo3::prelude::*;
 use quasilux::embedded::{self, Finished, Listener, Order, Project, ResumableRun};

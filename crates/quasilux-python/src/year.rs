@@ -2,8 +2,8 @@
 
 use crate::arrays::read_only;
 use crate::error::from_command_line;
-use crate::following::{Failure, Line, follow};
-use crate::progress::YearReporter;
+use crate::following::{Failure, follow};
+use crate::progress::{Line, YearReporter};
 use crate::scene::Scene;
 use numpy::Element;
 use pyo3::prelude::*;
@@ -23,7 +23,6 @@ pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
 #[derive(IntoPyObject)]
 struct YearEntry<'py> {
     table: String,
-    is_complete: bool,
     /// The bytes of all files, by name.
     files: Bound<'py, PyDict>,
     /// Arrays over the intervals of the weather file.
@@ -62,7 +61,7 @@ fn annual<'py>(
 
 impl<'py> YearEntry<'py> {
     fn new(py: Python<'py>, year: FinishedYear) -> PyResult<Self> {
-        let FinishedYear { files: contents, table, calendar, blinds, is_complete } = year;
+        let FinishedYear { files: contents, table, calendar, blinds, .. } = year;
         let files = PyDict::new(py);
         for file in contents {
             files.set_item(file.name, PyBytes::new(py, &file.content))?;
@@ -70,7 +69,7 @@ impl<'py> YearEntry<'py> {
         let groups = blinds.map(|blinds| blinds.groups).unwrap_or_default();
         let blinds = groups.into_iter().map(|group| BlindsEntry::new(py, group, &calendar));
         let blinds = blinds.collect();
-        Ok(Self { table, is_complete, files, intervals: intervals(py, &calendar)?, blinds })
+        Ok(Self { table, files, intervals: intervals(py, &calendar)?, blinds })
     }
 }
 

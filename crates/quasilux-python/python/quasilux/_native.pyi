@@ -241,7 +241,6 @@ class BlindsEntry(TypedDict):
 @type_check_only
 class YearEntry(TypedDict):
     table: str
-    is_complete: bool
     files: dict[str, bytes]
     intervals: dict[str, Any]
     blinds: list[BlindsEntry]
