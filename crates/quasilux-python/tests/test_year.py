@@ -84,6 +84,7 @@ def test_a_year_is_a_mapping_of_sensors(year: quasilux.Year) -> None:
     assert roof.ase.low <= roof.ase.value <= roof.ase.high
     assert "sDA" in str(year) and repr(year).startswith("<quasilux.Year of roof, middle: 48 hours")
     assert "2 x 3 points, 48 hours" in repr(roof)
+    assert (year._repr_png_() or b"").startswith(b"\x89PNG")
 
 
 def test_hours_are_those_of_the_weather(year: quasilux.Year) -> None:

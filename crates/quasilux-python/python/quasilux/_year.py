@@ -298,6 +298,10 @@ class Year(Mapping[str, SensorYear]):
         verdict = verdict if self.complete else "stopped"
         return f"<quasilux.Year of {', '.join(self)}: {len(self.calendar)} hours, {verdict}>"
 
+    def _repr_png_(self) -> bytes | None:
+        pictures = (self._entry["files"].get(f"{name}.hours.png") for name in self)
+        return next((png for png in pictures if png is not None), None)
+
 
 def _energy(entry: dict[str, Any]) -> Figure:
     numbers = {"value": entry["energy_kwh"], "half_width": entry["energy_kwh_half_width"]}

@@ -1,6 +1,9 @@
 //! `quasilux annual`: the hours of weather files.
 
 use crate::support::{Folder, number, parsed};
+use quasilux::embedded::{self, Project, YearFile, YearOrder};
+use quasilux_transport::Control;
+use std::ffi::OsString;
 
 /// A day and a bit more, hour by hour: illuminances of sun and sky at noon, and nothing known but
 /// darkness else.
@@ -78,6 +81,35 @@ fn hours_under_the_open_sky_are_those_of_the_file() {
     };
     assert!((value(12) - value(2 * 48 + 12)).abs() < 0.005 * value(12), "two points, one sky");
     assert!((f64::from(value(12)) / noon - 1.0).abs() < 0.005 && value(48 + 12) < value(12) * 0.01);
+}
+
+/// A program that carries this one gets the files of the command line in memory.
+#[test]
+fn a_year_in_memory_has_the_files_of_the_command_line() {
+    let folder = folder("annual_in_memory", WEATHER);
+    let words = ["--rel-tol=5%", "--occupied=8-18"];
+    let command = ["annual", "a.toml", "--out", "out", "--quiet"];
+    let done = folder.quasilux(&[&command[..], &words].concat());
+    assert_eq!(done.code, Some(0), "{}", done.stderr);
+    let project = Project::open(&folder.path("a.toml")).unwrap();
+    let order = YearOrder::from_words(words.map(OsString::from)).unwrap();
+    let year = embedded::annual(&project, &order, None).unwrap();
+    assert!(year.is_complete && year.table.contains("sDA (300 lx, 50 %)"), "{}", year.table);
+    let theirs = std::fs::read_dir(folder.path("out")).unwrap();
+    assert_eq!(theirs.count(), year.files.len());
+    for YearFile { name, content } in &year.files {
+        let theirs = std::fs::read(folder.path(&format!("out/{name}"))).unwrap();
+        if name == "annual.json" {
+            let [own, theirs] = [content, &theirs].map(|it| parsed(&String::from_utf8_lossy(it)));
+            for key in ["sensors", "hours", "warnings", "tolerance_reached"] {
+                assert_eq!(own[key], theirs[key], "{key}");
+            }
+        } else {
+            assert!(*content == theirs, "{name}");
+        }
+    }
+    let stopped = embedded::annual(&project, &order, Some(&|_| Control::Stop)).unwrap();
+    assert!(!stopped.is_complete && stopped.calendar.intervals.len() == 48);
 }
 
 #[test]
