@@ -25,7 +25,7 @@ pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
 /// Between two calls, checkpoints left out.
 const EVERY: Duration = Duration::from_millis(100);
 
-/// What the thread of a run sends.
+/// Messages from the thread of a run.
 pub(crate) enum News {
     Progress(Box<Standing>),
     /// The run waits for an answer.
@@ -54,7 +54,7 @@ pub(crate) struct Standing {
     sensors: Vec<SensorFigures>,
 }
 
-/// What is known of a sensor.
+/// Figures of a sensor so far.
 struct SensorFigures {
     name: String,
     shape: Vec<usize>,
@@ -163,7 +163,7 @@ pub(crate) struct YearReporter {
     start: Instant,
 }
 
-/// What the caller was told of last, if anybody wants to know.
+/// Progress that the caller was told of last, if it listens.
 struct Told {
     news: Option<Sender<News>>,
     next: Instant,

@@ -52,7 +52,7 @@ impl Sky {
         self.outside.document()
     }
 
-    /// What the command line prints.
+    /// Text that the command line prints.
     fn text(&self) -> String {
         self.outside.text()
     }

@@ -9,7 +9,7 @@ use crate::project::Project;
 use std::ffi::OsString;
 use std::path::Path;
 
-/// What is asked of a year.
+/// Options of a year.
 #[derive(Debug)]
 pub struct YearOrder(AnnualArguments);
 

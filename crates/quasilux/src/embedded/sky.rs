@@ -6,7 +6,7 @@ use crate::project::Project;
 use quasilux_drawing::Drawing;
 use quasilux_sky::{LocalTime, SkyPoint, Weather};
 
-/// What `quasilux sky` says of one sky.
+/// One sky, as `quasilux sky` describes it.
 #[derive(Clone, Debug)]
 pub struct OutsideSky {
     subject: Subject,
@@ -22,7 +22,7 @@ impl OutsideSky {
         Self::new(Subject::of_project(project, false)?)
     }
 
-    /// What a weather file, which messages call `file`, says of a time by the clock of its site.
+    /// Sky of a weather file, which messages call `file`, at a time by the clock of its site.
     ///
     /// # Errors
     /// When it is no weather file, or nothing shines then.
@@ -58,7 +58,7 @@ impl OutsideSky {
         sky_document(&self.subject)
     }
 
-    /// The same for people.
+    /// Description for people.
     #[must_use]
     pub fn text(&self) -> String {
         sky_text(&self.subject)

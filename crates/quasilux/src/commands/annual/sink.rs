@@ -57,7 +57,7 @@ impl<'s, 'r> Sink<'s, 'r> {
         self.take(block)
     }
 
-    /// What was interrupted has not-a-numbers for the rest, so that the file is whole.
+    /// Ends the file: a year that was interrupted has NaN for the rest, so that the file is whole.
     pub(super) fn end(self, is_complete: bool) -> io::Result<()> {
         self.report.run.work.is_complete = is_complete;
         let intervals = self.report.calendar.intervals.len();
@@ -74,7 +74,7 @@ impl<'s, 'r> Sink<'s, 'r> {
 pub struct YearFile {
     /// Its name in their folder.
     pub name: String,
-    /// What it holds.
+    /// Bytes of the file.
     pub content: Vec<u8>,
 }
 

@@ -177,7 +177,7 @@ impl<'p> Year<'p> {
         is_complete
     }
 
-    /// The same, with somebody else to be told how far it is and to end it.
+    /// Traces the year, with an observer that is told how far it is and may end it.
     pub(super) fn trace(
         &self,
         points: Range<usize>,
@@ -249,7 +249,7 @@ impl<'p> Year<'p> {
         })
     }
 
-    /// Those of the project, and of the skies of its hours.
+    /// Warnings of the project, and of the skies of its hours.
     fn warnings(&self) -> Vec<String> {
         let own = &self.project.loaded.warnings;
         let mut warnings: Vec<String> = own.iter().map(ToString::to_string).collect();

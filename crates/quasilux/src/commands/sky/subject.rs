@@ -111,8 +111,7 @@ impl Subject {
             .and_then(|bytes| Weather::parse(&bytes).map_err(|error| Failure::new(&file, &error)));
         let read = read.map_err(CliError::new)?;
         if time.is_none() && !needs_no_time {
-            let message = "no time says of which interval; expected --time, like --time \
-                           2026-03-20T12:30";
+            let message = "no time says which interval; give --time, like --time 2026-03-20T12:30";
             return Err(CliError::in_file(&file, None, message));
         }
         Self::of_weather_file(&file, &read, time)
