@@ -25,7 +25,7 @@ class Caveat:
     --------
     >>> import quasilux
     >>> cube = "examples/cube/cube.toml"
-    >>> result = quasilux.simulate(cube, estimator="bidirectional-map", rel_tol=0.05)
+    >>> result = quasilux.simulate(cube, estimator="bidirectional-map", samples=64)
     >>> [caveat.kind for caveat in result.caveats]
     ['means_over_map_elements']
     """
