@@ -55,7 +55,12 @@ pub(crate) fn print_crates(root: &Path) -> Result<(), Failure> {
 
 /// Prints what the changelog says of a version, or of the one that a tag names.
 pub(crate) fn print_notes(root: &Path, version: &str) -> Result<(), Failure> {
-    println!("{}", notes(root, version.strip_prefix('v').unwrap_or(version))?);
+    let named = version.strip_prefix('v').unwrap_or(version);
+    let own = self::version(root)?;
+    if named != own && named != "Unreleased" {
+        return Err(format!("the tag names version {named}, Cargo.toml {own}"));
+    }
+    println!("{}", notes(root, named)?);
     Ok(())
 }
 
@@ -105,6 +110,9 @@ fn pack(root: &Path, program: &Path, target: &str) -> Result<PathBuf, Failure> {
     for shell in SHELLS {
         let script = Command::new(program).args(["completions", shell]).output();
         let script = script.map_err(|error| format!("{}: {error}", program.display()))?;
+        if !script.status.success() || script.stdout.is_empty() {
+            return Err(format!("{} has no completions for {shell}", program.display()));
+        }
         let path = folder.join(format!("completions/quasilux.{shell}"));
         fs::write(path, script.stdout).map_err(wrong)?;
     }

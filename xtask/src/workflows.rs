@@ -92,6 +92,8 @@ fn nothing_is_published_but_from_a_tag() {
             if job.starts_with("publish") {
                 let condition = content["if"].as_str();
                 assert_eq!(condition, Some("startsWith(github.ref, 'refs/tags/v')"), "{name}");
+                let waits = content["needs"].as_vec().is_some_and(|needs| !needs.is_empty());
+                assert!(waits, "{name}: {job} waits for nothing");
                 published += 1;
             } else {
                 let publishes = ["cargo publish", "gh release"];

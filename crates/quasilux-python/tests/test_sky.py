@@ -83,7 +83,7 @@ def test_skies_of_scenes_are_what_shines_there(tmp_path: Path) -> None:
     assert pickle.loads(pickle.dumps(found)).to_dict() == found.to_dict()
     with pytest.raises(quasilux.InputError, match="nothing is outside"):
         sky.of_scene(room())
-    with pytest.raises(quasilux.InputError, match="no time says of which interval"):
+    with pytest.raises(quasilux.InputError, match="no time says which interval"):
         sky.of_scene(terrace())
 
 
@@ -119,7 +119,7 @@ def test_what_makes_no_sky_is_refused(tmp_path: Path) -> None:
         sky.cie(17)
     with pytest.raises(TypeError, match="whole number"):
         sky.cie(1.5)  # type: ignore[arg-type]
-    with pytest.raises(quasilux.InputError, match="depend on the sun; expected sun_deg"):
+    with pytest.raises(quasilux.InputError, match="depend on the sun; give sun_deg"):
         sky.cie(12)
     with pytest.raises(quasilux.InputError, match="no interval with 06-21"):
         sky.of_weather(weather(), "2026-06-21T12:00")

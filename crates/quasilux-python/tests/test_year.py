@@ -188,7 +188,7 @@ def test_values_that_make_no_sense_are_refused(options: dict[str, Any], message:
 
 
 def test_scenes_without_a_year_are_refused() -> None:
-    with pytest.raises(quasilux.InputError, match="no weather; expected"):
+    with pytest.raises(quasilux.InputError, match="no weather; add"):
         quasilux.annual(room())
     for bad in ("8-18", (8,), 8):
         with pytest.raises(TypeError, match="expected two numbers"):

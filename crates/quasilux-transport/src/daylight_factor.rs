@@ -131,8 +131,8 @@ fn add<S: Spectrum>(
     [sky, externally]: &mut [f64; 2],
 ) {
     let search = DaylightSearch { suns: &Suns::default(), only_from_beyond: true };
-    trace(context, search, of, paths, wave, |FromOutside { whence, reflection, light }| {
-        let is_ground = match whence {
+    trace(context, search, of, paths, wave, |FromOutside { source, reflection, light }| {
+        let is_ground = match source {
             OutsideSource::Outside(direction) | OutsideSource::Mirrored(direction) => {
                 direction.z < 0.0
             }

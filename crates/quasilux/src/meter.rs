@@ -69,7 +69,8 @@ impl Drop for Meter {
 
 /// The share that is done, and the time left at the pace so far.
 fn news(share: f64, elapsed_s: f64) -> String {
-    format!("{:.0} % done, {}", 100.0 * share, time_left::in_words(share, elapsed_s))
+    let left = time_left::in_words(time_left::seconds_left(share, elapsed_s, None));
+    format!("{:.0} % done, {left}", 100.0 * share)
 }
 
 #[cfg(test)]

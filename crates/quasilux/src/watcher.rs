@@ -235,7 +235,8 @@ impl<'a> Watcher<'a> {
         self.bar.set_position((done * STEPS as f64) as u64);
         let name = &self.forecast.scene.cameras[picture.camera].name;
         let bytes = memory(self.forecast.bytes(Some(progress.samples)));
-        self.show(picture_message(name, picture, done, elapsed_s) + ", " + &bytes, "");
+        let left_s = seconds_left(done, elapsed_s, sitting.end.map(seconds_until));
+        self.show(picture_message(name, picture, left_s) + ", " + &bytes, "");
     }
 
     /// Shows how far the run is, and behind the bar what sensors show.
@@ -324,7 +325,8 @@ impl Observer for Watcher<'_> {
             None => progress.done,
         };
         self.bar.set_position((done.unwrap_or(0.0) * STEPS as f64) as u64);
-        let course = message(progress, done, elapsed_s);
+        let limit_s = self.deadline.map(seconds_until);
+        let course = message(progress, done, elapsed_s, limit_s);
         let bytes =
             self.forecast.bytes(progress.expected_samples.or(self.forecast.settings.max_samples));
         self.show(course + ", " + &memory(bytes), &self.values);
@@ -337,9 +339,13 @@ impl Observer for Watcher<'_> {
     }
 }
 
+fn seconds_until(end: Instant) -> f64 {
+    end.saturating_duration_since(Instant::now()).as_secs_f64()
+}
+
 /// Photons, paths, rays a second, the largest relative half-width and how it shrinks, the time left
 /// to the end, and that of the whole run to the tolerance.
-fn message(progress: &Progress, done: Option<f64>, elapsed_s: f64) -> String {
+fn message(progress: &Progress, done: Option<f64>, elapsed_s: f64, limit_s: Option<f64>) -> String {
     let rays = progress.rays as f64;
     let own_rays = progress.rays.saturating_sub(progress.earlier_rays).max(1) as f64;
     let rays_per_s = own_rays / elapsed_s.max(1e-3);
@@ -349,9 +355,9 @@ fn message(progress: &Progress, done: Option<f64>, elapsed_s: f64) -> String {
     let slope = progress.slope.map_or_else(String::new, |slope| format!(" ~ N^{slope:.2}"));
     // What a run that was gone on with took before is told at the pace of now.
     let pace_s = elapsed_s * rays.max(1.0) / own_rays;
-    let left = match progress.done_of_first.map(|done| seconds_left(done, pace_s)) {
+    let left = match progress.done_of_first.map(|done| seconds_left(done, pace_s, limit_s)) {
         Some(Some(left_s)) => format!("{} s to the first values", brief(left_s, 2)),
-        _ => time_left::in_words(done.unwrap_or(0.0), pace_s),
+        _ => time_left::in_words(seconds_left(done.unwrap_or(0.0), pace_s, limit_s)),
     };
     let whole = progress.expected_rays.map_or_else(String::new, |expected| {
         format!(
@@ -368,11 +374,11 @@ fn message(progress: &Progress, done: Option<f64>, elapsed_s: f64) -> String {
 }
 
 /// The passes of a picture, how well it is known, and the time left to its end.
-fn picture_message(name: &str, picture: &PictureProgress, done: f64, elapsed_s: f64) -> String {
+fn picture_message(name: &str, picture: &PictureProgress, left_s: Option<f64>) -> String {
     let PictureProgress { samples, complete_samples, relative_half_width, rel_tol, .. } = *picture;
     let known = relative_half_width.map_or_else(|| "?".to_owned(), percent);
     let wanted = rel_tol.map_or_else(String::new, |share| format!(", goal {}", percent(share)));
-    let left = time_left::in_words(done, elapsed_s);
+    let left = time_left::in_words(left_s);
     format!(
         "picture {name}: pass with {} paths per pixel (previous {}), error {known}{wanted}, {left}",
         count(samples),
@@ -421,11 +427,12 @@ mod tests {
             done_of_first: None,
             picture: None,
         };
-        let text = message(&progress, progress.done, 2.0);
+        let text = message(&progress, progress.done, 2.0, None);
         assert!(text.ends_with("±10.00 %, 18 s left, the tolerance after about 4000 s"), "{text}");
-        let text = message(&Progress { expected_rays: None, ..progress }, None, 2.0);
+        let text = message(&Progress { expected_rays: None, ..progress }, None, 2.0, None);
         assert!(text.ends_with("±10.00 %, time left not known yet"), "{text}");
-        let text = message(&Progress { done_of_first: Some(0.2), ..progress }, Some(0.9), 2.0);
+        let text =
+            message(&Progress { done_of_first: Some(0.2), ..progress }, Some(0.9), 2.0, None);
         assert!(text.contains("±10.00 %, 8 s to the first values"), "{text}");
     }
 
@@ -438,12 +445,12 @@ mod tests {
             relative_half_width: Some(0.0456),
             rel_tol: Some(0.02),
         };
-        let text = picture_message("door", &picture, 0.25, 3.0);
+        let text = picture_message("door", &picture, Some(9.0));
         let wanted = "picture door: pass with 24 paths per pixel (previous 4), error 4.56 %, goal \
                       2.00 %, 9 s left";
         assert_eq!(text, wanted);
         let first = PictureProgress { samples: 1, ..PictureProgress::default() };
-        let text = picture_message("door", &first, 0.0, 3.0);
+        let text = picture_message("door", &first, None);
         let wanted = "picture door: pass with 1 paths per pixel (previous 0), error ?, time left \
                       not known yet";
         assert_eq!(text, wanted);

@@ -15,6 +15,8 @@ if TYPE_CHECKING:
 
 _STEPS = 24
 _SECONDS_BETWEEN_LINES = 8.0
+# Before this share of the work the pace says little of the whole.
+_MIN_SHARE = 0.02
 
 
 class Silent:
@@ -75,7 +77,9 @@ def line(progress: Told) -> str:
     """Return how far a run is as one line of text."""
     done = progress.done or 0.0
     bar = ("=" * int(done * _STEPS) + ">")[:_STEPS].ljust(_STEPS)
-    left = f"{progress.seconds * (1.0 - done) / done:.0f} s left" if done else "? s left"
+    left = "time left not known yet"
+    if done >= _MIN_SHARE:
+        left = f"{max(1.0, progress.seconds * (1.0 - done) / done):.0f} s left"
     if isinstance(progress, YearProgress):
         return f"{bar} {progress.seconds:.0f} s, {100.0 * done:.0f} % of the year, {left}"
     rays_per_s = progress.rays / max(progress.seconds, 1e-3)

@@ -5,7 +5,10 @@ from __future__ import annotations
 import dataclasses
 import json
 import os
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
+
+from quasilux._whole_file import write_whole
 
 if TYPE_CHECKING:
     from quasilux import _native
@@ -62,7 +65,7 @@ class Stored:
 
     def sensor_arrays(self, index: int) -> dict[str, Any]:
         """Return the arrays of a sensor."""
-        return {name: _read_only(array) for name, array in self.sensors[index].items()}
+        return {name: read_only(array) for name, array in self.sensors[index].items()}
 
     def statuses(self, index: int) -> list[str] | None:
         """Return what each point of a sensor waits for."""
@@ -71,7 +74,7 @@ class Stored:
     def camera_arrays(self, index: int) -> dict[str, Any] | None:
         """Return the arrays of a camera."""
         arrays = self.cameras[index]
-        return arrays and {name: _read_only(array) for name, array in arrays.items()}
+        return arrays and {name: read_only(array) for name, array in arrays.items()}
 
     def file(self, name: str) -> bytes | None:
         """Return a file of the results."""
@@ -81,13 +84,10 @@ class Stored:
         """Write all files."""
         os.makedirs(folder, exist_ok=True)
         for name, content in self.files.items():
-            beside = os.path.join(folder, f"{name}.unfinished")
-            with open(beside, "wb") as file:
-                file.write(content)
-            os.replace(beside, os.path.join(folder, name))
+            write_whole(Path(folder, name), content)
 
 
-def _read_only(array: Any) -> Any:
-    # Pickle makes arrays that can be written to.
+def read_only(array: Any) -> Any:
+    """Return an array that cannot be written to: pickle makes others."""
     array.flags.writeable = False
     return array

@@ -14,6 +14,7 @@ import numpy as np
 
 from quasilux._figure import Figure
 from quasilux._sensor_year import SensorYear
+from quasilux._stored import read_only
 from quasilux._whole_file import write_whole
 
 if TYPE_CHECKING:
@@ -88,7 +89,7 @@ class BlindsOfYear:
 
     @classmethod
     def _from_entry(cls, entry: BlindsEntry) -> BlindsOfYear:
-        return cls(entry["name"], tuple(entry["positions"]), _read_only(entry["position"]))
+        return cls(entry["name"], tuple(entry["positions"]), read_only(entry["position"]))
 
 
 @dataclasses.dataclass(frozen=True)
@@ -192,7 +193,7 @@ class Year(Mapping[str, SensorYear]):
     def calendar(self) -> Calendar:
         """The hours, and what shines in them."""
         arrays = self._entry["intervals"]
-        return Calendar(**{name: _read_only(array) for name, array in arrays.items()})
+        return Calendar(**{name: read_only(array) for name, array in arrays.items()})
 
     @property
     def interval_h(self) -> float:
@@ -306,9 +307,3 @@ class Year(Mapping[str, SensorYear]):
 def _energy(entry: dict[str, Any]) -> Figure:
     numbers = {"value": entry["energy_kwh"], "half_width": entry["energy_kwh_half_width"]}
     return Figure._from_entry(numbers)
-
-
-def _read_only(array: Any) -> Any:
-    # Pickle makes arrays that can be written to.
-    array.flags.writeable = False
-    return array

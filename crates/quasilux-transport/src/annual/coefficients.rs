@@ -148,8 +148,8 @@ impl Sums {
         trace(context, search, place, indices, wave, |found| self.add(meshes, found))
     }
 
-    fn add(&mut self, meshes: &Meshes, FromOutside { whence, light, .. }: FromOutside) {
-        let (direction, is_mirrored) = match whence {
+    fn add(&mut self, meshes: &Meshes, FromOutside { source, light, .. }: FromOutside) {
+        let (direction, is_mirrored) = match source {
             OutsideSource::Sun(sun, _) => {
                 return add(&mut self.suns[sun as usize], light, &mut self.invalid);
             }

@@ -28,7 +28,7 @@ pub(super) fn sun_ways<S: Spectrum>(
         let of = TargetReplicate { number, target: &targets[number], replicate };
         let mut ways = SunWays::default();
         trace(context, search, of, 0..PILOT_PATHS, &mut PathWave::default(), |found| {
-            if let OutsideSource::Sun(_, place) = found.whence {
+            if let OutsideSource::Sun(_, place) = found.source {
                 ways.note(place, found.light > 0.0);
             }
         });

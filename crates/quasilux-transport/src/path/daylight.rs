@@ -30,7 +30,7 @@ pub(crate) enum LastReflection {
 /// Light from outside that a path found.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FromOutside {
-    pub(crate) whence: OutsideSource,
+    pub(crate) source: OutsideSource,
     pub(crate) reflection: LastReflection,
     /// Light in lx at its start for 1 cd/m2 there, or for a sun of 1 lx; for what shines there
     /// where the scene has its own sky.
@@ -59,7 +59,7 @@ pub(crate) struct Daylight<'p> {
 
 #[derive(Clone, Copy, Debug)]
 struct Asked {
-    whence: OutsideSource,
+    source: OutsideSource,
     reflection: LastReflection,
 }
 
@@ -94,21 +94,21 @@ impl<'p> Daylight<'p> {
     }
 
     /// Light from outside that it finds where it leaves the scene.
-    pub(crate) fn found(&self, whence: OutsideSource, light: f64) -> FromOutside {
-        FromOutside { whence, reflection: self.reflection, light }
+    pub(crate) fn found(&self, source: OutsideSource, light: f64) -> FromOutside {
+        FromOutside { source, reflection: self.reflection, light }
     }
 
     /// Asks for light; `is_reflected` where it would be reflected here.
-    pub(crate) fn note_asked(&mut self, whence: OutsideSource, is_reflected: bool) {
+    pub(crate) fn note_asked(&mut self, source: OutsideSource, is_reflected: bool) {
         let reflection = if is_reflected { self.after_reflection() } else { self.reflection };
-        self.asked.push_back(Asked { whence, reflection });
+        self.asked.push_back(Asked { source, reflection });
     }
 
     /// Light of the oldest request that is not answered yet. Blocked light is 0 while it is learnt
     /// where the suns shine, else `None`.
     pub(crate) fn answered(&mut self, light: Option<f64>) -> Option<FromOutside> {
-        let Asked { whence, reflection } = self.asked.pop_front()?;
+        let Asked { source, reflection } = self.asked.pop_front()?;
         let light = light.or(self.search.suns.is_learning().then_some(0.0));
-        light.map(|light| FromOutside { whence, reflection, light })
+        light.map(|light| FromOutside { source, reflection, light })
     }
 }

@@ -365,7 +365,7 @@ impl<'a, S: Spectrum> PictureIntegrator<'a, S> {
         light: &Light<'_, S>,
         indices: Range<u64>,
     ) -> WorkCounts {
-        let of_tray = |wave: &mut PathWave<S>, tile: &mut &mut Tile| {
+        let of_tile = |wave: &mut PathWave<S>, tile: &mut &mut Tile| {
             let mut work = WorkCounts::default();
             let Tile { samples, places, per_sure_m2, found, .. } = &mut **tile;
             *samples += indices.end - indices.start;
@@ -394,7 +394,7 @@ impl<'a, S: Spectrum> PictureIntegrator<'a, S> {
             }
             work
         };
-        let works = tiles.par_iter_mut().map_init(PathWave::default, of_tray);
+        let works = tiles.par_iter_mut().map_init(PathWave::default, of_tile);
         let works: Vec<WorkCounts> = works.collect();
         works.into_iter().fold(WorkCounts::default(), |mut sum, own| {
             sum += own;

@@ -118,7 +118,7 @@ pub enum Caveat {
     },
     /// A picture that ended above its tolerance.
     #[error(
-        "the picture of camera \"{camera}\" is above its tolerance: error {}, goal {:.2} %, after \
+        "the picture of camera \"{camera}\" is above its tolerance: error {}, goal {} %, after \
          {samples} paths per pixel and replicate",
         relative_half_width.map_or("unknown".to_owned(), |known| format!("{:.2} %", 100.0 * known)),
         100.0 * rel_tol
@@ -268,6 +268,12 @@ mod tests {
             Caveat::PathsTerminated { paths: 1 },
             Caveat::PicturePathsTerminated { paths: 1 },
             Caveat::NoPicture { camera: "a".to_owned() },
+            Caveat::PictureAboveTolerance {
+                camera: "a".to_owned(),
+                samples: 1,
+                relative_half_width: None,
+                rel_tol: 0.05,
+            },
             Caveat::PictureUnfinished { camera: "a".to_owned(), samples: 1, wanted_samples: 2 },
             Caveat::PictureBlurred { camera: "a".to_owned(), share: 0.1, radius_m: 0.1 },
         ] {

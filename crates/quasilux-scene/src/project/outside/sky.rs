@@ -48,7 +48,7 @@ pub(in crate::project) const PEREZ_KEYS: [Key; 4] = [
         "W/m2, 0 to 2000",
         "Irradiance of the sky on a horizontal plane",
     ),
-    optional("dew_point_c", "degrees Celsius", "`11`", "Dew point of the air"),
+    optional("dew_point_c", "degrees Celsius, -90 to 60", "`11`", "Dew point of the air"),
 ];
 pub(in crate::project) const PANORAMA_KEYS: [Key; 5] = [
     MODEL,

@@ -131,8 +131,8 @@ impl<S: Spectrum> Path<'_, S> {
             let share = if vertex.is_sensor() { onward_share(search) } else { 0.0 };
             let sample = outside.light_sample(vertex, share, u);
             if let (Some(daylight), Some(sample)) = (&mut self.daylight, &sample) {
-                let whence = OutsideSource::Outside(sample.direction);
-                daylight.note_asked(whence, vertex.reflects(sample.direction));
+                let source = OutsideSource::Outside(sample.direction);
+                daylight.note_asked(source, vertex.reflects(sample.direction));
             }
             self.ask(sample, vertex, work);
         }
@@ -233,11 +233,11 @@ impl<S: Spectrum> Path<'_, S> {
         }
         let light = self.beta.outside.here * found_cd_m2;
         if let Some(daylight) = &self.daylight {
-            let whence = match self.last.asked_outside {
+            let source = match self.last.asked_outside {
                 Some(_) => OutsideSource::Outside(self.direction),
                 None => OutsideSource::Mirrored(self.direction),
             };
-            self.light.found.from_outside.push(daylight.found(whence, light.luminance()));
+            self.light.found.from_outside.push(daylight.found(source, light.luminance()));
             return;
         }
         self.light.found.add(bounces, light);
