@@ -1,15 +1,13 @@
 //! Intervals are true at the moment a run stops by itself.
 //!
-//! Over 160 seeds and two ways to gather the diffuse cube is run to 3 % (deep: 1.8 %) at three
-//! places whose light is known to 1e-5, with only eight replicates, so that half-widths are noisy
-//! and runs stop at different looks, by their intervals alone. The 95 % interval must cover the
-//! truth in at least 92.82 % of the 960 cases: were they independent, fewer would come once in 1000
-//! choices of the seeds; and in at least 91.7 % of the 480 cases of each way, by the same measure
-//! for two of them. Intervals that are 30 % too narrow cover about 89 %; the test shows that it
-//! would notice them.
+//! Over 160 seeds and two ways to gather the diffuse cube is run to 1.8 % at three places whose
+//! light is known to 1e-5, with only eight replicates, so that half-widths are noisy and runs stop
+//! at different looks, by their intervals alone. The 95 % interval must cover the truth in at least
+//! 92.82 % of the 960 cases: were they independent, fewer would come once in 1000 choices of the
+//! seeds; and in at least 91.7 % of the 480 cases of each way, by the same measure for two of them.
+//! Intervals that are 30 % too narrow cover about 89 %; the test shows that it would notice them.
 
 use crate::scenes::diffuse_cube;
-use quasilux_stats::deep;
 use quasilux_transport::{EstimatorKind, Settings, UnseenTolerance, simulate};
 use std::f64::consts::PI;
 
@@ -31,7 +29,7 @@ fn intervals_cover_where_runs_stop() {
         for (way, estimator) in UNBIASED.into_iter().enumerate() {
             let settings = Settings {
                 estimator,
-                rel_tol: if deep() { 0.018 } else { 0.03 },
+                rel_tol: 0.018,
                 unseen_tol: UnseenTolerance::Off,
                 replicates: 8,
                 seed,
