@@ -2,8 +2,8 @@
 //!
 //! The error of a quasi-Monte Carlo mean comes from independent randomisations of the whole point
 //! set, never from the spread of its points (L'Ecuyer, Nakayama, Owen and Tuffin 2023). Read on at
-//! [`minimum`](crate::stats::minimum) for figures that are not means, and at
-//! [`sequential`](crate::stats::sequential) for what it costs to look at them while a run goes.
+//! `stats::minimum` for figures that are not means, and at `stats::sequential` for what it costs to
+//! look at them while a run goes.
 
 /// A value and how sure it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
