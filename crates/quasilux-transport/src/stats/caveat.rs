@@ -118,7 +118,7 @@ pub enum Caveat {
     },
     /// A picture that ended above its tolerance.
     #[error(
-        "the picture of camera \"{camera}\" is above its tolerance: error {}, goal {} %, after \
+        "the picture of camera \"{camera}\" is above its tolerance: error {}, goal {:.2} %, after \
          {samples} paths per pixel and replicate",
         relative_half_width.map_or("unknown".to_owned(), |known| format!("{:.2} %", 100.0 * known)),
         100.0 * rel_tol
