@@ -5,15 +5,13 @@ use super::cells::Regions;
 use super::connect_far_cells;
 use super::flux_and_importance::{FluxAndImportance, landing};
 use super::guiding_tree::GuidingTree;
-use super::survey::{PilotPhoton, Survey};
+use super::survey::Survey;
 use super::weight_windows::{Split, importance_weights, next_squares};
 use crate::codec::Writer;
 use crate::context::Context;
-use crate::sensors::Target;
 use crate::spectrum::Spectrum;
 use crate::stats::efficiency::Performance;
 use crate::world::Interaction;
-use quasilux_sampling::Sampler;
 
 /// Copies at most: rarer light is left to the bound.
 const MAX_COPIES: f64 = 64.0;
@@ -41,12 +39,7 @@ impl Copies {
     /// lights `emit` land first. The mean is over their number, whatever they carry: where a faint
     /// lamp has its photons, copies would cost more than they bring. Powers of two, so the survey's
     /// noise changes few.
-    pub(crate) fn new<S: Spectrum>(
-        context: &Context<'_, S>,
-        targets: &[Target],
-        emit: impl Fn(&mut Sampler<'_>) -> Option<PilotPhoton> + Sync,
-    ) -> Self {
-        let Some(mut survey) = Survey::new(context, targets, emit) else { return Self::single(0) };
+    pub(crate) fn new<S: Spectrum>(context: &Context<'_, S>, mut survey: Survey) -> Self {
         let solution = connect_far_cells(context, &mut survey, 1);
         let Some(solution) = solution else { return Self::single(survey.rays) };
         let even = vec![GuidingTree::even(); survey.known.len()];

@@ -6,14 +6,15 @@
 //! there is and its importance to the sensors; [`weight_windows`] then say how many photons
 //! should follow each that lands, and [`guiding_tree`] in which directions. The survey has pilot
 //! rays of its own, their number is fixed and their coordinates serve nothing else: whatever it
-//! says, the estimate has the same mean. Light subpaths of the default take only the number of
-//! their [`copies`] from it. It also predicts what guiding saves; where that is little, as in a
-//! plain room, photons are left alone.
+//! says, the estimate has the same mean. Of the default light subpaths take only the number of
+//! their [`copies`] from it, and eye paths how places see outside ([`openings`]). It also predicts
+//! what guiding saves; where that is little, as in a plain room, photons are left alone.
 
 mod cells;
 mod copies;
 mod flux_and_importance;
 mod guiding_tree;
+mod openings;
 mod survey;
 #[cfg(test)]
 mod tests;
@@ -21,7 +22,8 @@ mod weight_windows;
 
 pub(crate) use copies::Copies;
 pub(crate) use guiding_tree::{GuidingTree, MAX_NODES, Node};
-pub(crate) use survey::PilotPhoton;
+pub(crate) use openings::{Looked, OpeningView, OpeningViews, Outlook};
+pub(crate) use survey::{PilotPhoton, Survey};
 pub(crate) use weight_windows::{Split, WeightWindows};
 
 use crate::context::Context;
@@ -32,7 +34,6 @@ use crate::spectrum::Spectrum;
 use crate::stats::efficiency::Performance;
 use flux_and_importance::FluxAndImportance;
 use quasilux_sampling::Sampler;
-use survey::Survey;
 
 /// Photons are guided by themselves where the same error then costs this many times fewer rays. A
 /// small gain would not repay the closer look that guiding takes.

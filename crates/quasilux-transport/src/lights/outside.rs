@@ -160,6 +160,13 @@ impl<'a> OutsideLight<'a> {
         self.portals.iter().filter_map(passed).any(|hit| hit.distance <= 1.0)
     }
 
+    /// How far in m a ray goes to the first opening in its way; `None` where there is none.
+    pub(crate) fn opening_distance_m(&self, origin: DVec3, direction: DVec3) -> Option<f64> {
+        let prepared = PreparedRay::new(&Ray::new(origin, direction));
+        let met = |portal: &Portal| intersect(&prepared, &portal.corners, 0);
+        self.portals.iter().filter_map(met).map(|hit| hit.distance).reduce(f64::min)
+    }
+
     /// Whether there are openings.
     pub(crate) fn has_portals(&self) -> bool {
         !self.portals.is_empty()
@@ -294,7 +301,11 @@ impl<'a> OutsideLight<'a> {
 
     /// Density in sr^-1 with which [`Self::light_sample`] asks along a direction.
     pub(crate) fn pdf_sr(&self, place: Asking, direction: DVec3) -> f64 {
-        if self.is_asked_for() { self.pdf_of(&self.seen(place), place, direction) } else { 0.0 }
+        if self.opening_distance_m(place.position, direction).is_none() {
+            // Most directions go through none, and then weights of openings do not matter.
+            return self.bright.as_ref().map_or(0.0, |it| it.share * it.pdf_sr(direction));
+        }
+        self.pdf_of(&self.seen(place), place, direction)
     }
 
     /// The share of the samples that asks for bright pixels.

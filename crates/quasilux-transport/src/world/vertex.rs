@@ -58,6 +58,11 @@ impl<'w, S: Spectrum> Vertex<'w, S> {
         Self { from: world.ray_origin(at), n: at.n, beta, surface: Some(surface) }
     }
 
+    /// The surface that it lies on; `None` for a sensor point.
+    pub(crate) fn surface(&self) -> Option<&'w Surface<'w, S>> {
+        self.surface
+    }
+
     /// Whether paths start here.
     pub(crate) fn is_sensor(&self) -> bool {
         self.surface.is_none()

@@ -27,6 +27,7 @@ mod free_points;
 mod furnace;
 mod glints;
 mod hall;
+mod hidden_sky;
 mod images;
 mod klems_windows;
 mod many_lights;

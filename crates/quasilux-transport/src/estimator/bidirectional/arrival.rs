@@ -1,17 +1,18 @@
 //! Where a photon arrives, and how densely light that comes as it did is asked for there.
 
 use super::engine::Engine;
+use super::leading::WayOut;
 use super::mirrored_way::MirroredWay;
 use super::sources::Photon;
 use crate::context::Context;
-use crate::lights::{Asking, EmitterPlace, LightKind, OutsideLight};
+use crate::lights::{EmitterPlace, LightKind, OutsideLight};
 use crate::path::subpath_weights::{SubpathWeights, product};
 use crate::spectrum::Spectrum;
 use glam::DVec3;
 
 /// Where a subpath arrives.
 pub(super) struct Arrival {
-    pub(super) place: Asking,
+    pub(super) way_out: WayOut,
     pub(super) n: DVec3,
     /// Of the flight, from the last vertex or pane.
     pub(super) along_m: f64,
@@ -44,7 +45,7 @@ impl Arrival {
         let left_from = EmitterPlace { facet: emission.facet, position: emission.position };
         let Context { world, images, .. } = engine.context;
         let planes = way.planes.iter().copied();
-        let pdf_m2 = images.asked_over_m2(world, planes, self.place, left_from)?;
+        let pdf_m2 = images.asked_over_m2(world, planes, self.way_out.place, left_from)?;
         let distance_m = way.distance_m(self.along_m);
         let per_m2 = emission.per_m2_sr * self.cos * way.kept();
         Some(product(pdf_m2, distance_m * distance_m / per_m2))
@@ -58,7 +59,8 @@ impl Arrival {
         photon: &Photon,
         distance_m: f64,
     ) -> SubpathWeights {
-        let Self { place, n, direction, cos, asks, .. } = *self;
+        let Self { way_out, n, direction, cos, asks, .. } = *self;
+        let place = way_out.place;
         let Engine { context, sources, .. } = engine;
         let (lights, position) = (&context.lights, place.position);
         let asks_for = asks != Asks::Nothing;
@@ -99,7 +101,7 @@ impl Arrival {
                 let outside = lights.outside.as_ref().filter(|_| asks_for);
                 let asked_sr = outside.map_or(0.0, |outside: &OutsideLight<'_>| match of_sun {
                     true => outside.sun_pdf_sr(-direction),
-                    false => outside.pdf_sr(place, -direction),
+                    false => way_out.asked_sr(outside, -direction),
                 });
                 SubpathWeights::new(product(asked_sr, per_m2.recip()), per_m2.recip())
             }

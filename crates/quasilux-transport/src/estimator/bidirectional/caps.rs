@@ -13,6 +13,7 @@ mod surfaces;
 
 use super::asked_luminaires::AskedLuminaires;
 use super::engine::Engine;
+use super::leading::led_at_target;
 use super::plan::{FoundBy, Receiver, SUBPATHS};
 use super::samples::{crossings_of_discs, samples_at_emitters, samples_of_subpaths};
 use super::sources::PhotonFluxes;
@@ -125,8 +126,11 @@ impl Caps {
             })
         };
         let of_targets = watch.map_in_parts(&engine.receivers, POINTS_AT_ONCE, of_target)?;
-        let of_eye_lx =
-            if has_specular { f64::INFINITY } else { of_eye_paths_lx(&kinds, &of_targets) };
+        let of_eye_lx = if has_specular {
+            f64::INFINITY
+        } else {
+            of_eye_paths_lx(&kinds, &of_targets, &engine.receivers)
+        };
         Some(Self { of_targets, of_eye_lx })
     }
 
@@ -162,7 +166,7 @@ impl Caps {
 }
 
 /// Bound `K W` of eye paths alone in lx, the largest of all targets, where they can make all paths.
-fn of_eye_paths_lx(kinds: &[Kind], of_targets: &[Cap]) -> f64 {
+fn of_eye_paths_lx(kinds: &[Kind], of_targets: &[Cap], receivers: &[Receiver]) -> f64 {
     let straight = |kind: &Kind| match kind.straight {
         Straight::Computed => 0.0,
         Straight::AtMost(lx) => lx,
@@ -170,7 +174,13 @@ fn of_eye_paths_lx(kinds: &[Kind], of_targets: &[Cap]) -> f64 {
     };
     let of_kind = |kind: &Kind| straight(kind).max(kind.eye_samples * kind.eye_lx);
     let on_cells = of_targets.iter().map(|cap| cap.on_cell_lx).fold(0.0, f64::max);
-    kinds.iter().map(of_kind).fold(on_cells, f64::max)
+    let most_more = receivers.iter().map(more_of_others).fold(1.0, f64::max);
+    most_more * kinds.iter().map(of_kind).fold(on_cells, f64::max)
+}
+
+/// How much more than if none were led eye paths of a target carry that are not.
+fn more_of_others(receiver: &Receiver) -> f64 {
+    (1.0 - led_at_target(receiver.view)).recip()
 }
 
 /// Paths of one kind of light to one target.
@@ -203,7 +213,7 @@ impl Class<'_> {
         let disc = receiver.area_m2 / kind.flux_lm / (samples * crossings);
         let all_photons = receiver.photons(true, kind.found_by) / kind.flux_lm / crossings;
         let joined = SUBPATHS as f64 / (kind.flux_lm * self.joined_sr_m2 * samples);
-        let scale = receiver.radiance_scale;
+        let scale = receiver.radiance_scale * more_of_others(receiver);
         let [eye, met] =
             [kind.eye_lx, kind.met_lx].map(|lx| (lx * scale * kind.eye_samples).recip());
         let mut largest = 0.0_f64;

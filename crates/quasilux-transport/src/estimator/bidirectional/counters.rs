@@ -174,8 +174,13 @@ pub(super) fn share<S: Spectrum>(
     let direction = passing.flight.direction;
     let position = passing.flight.from + direction * along_m;
     let cos = vertex.cos(-direction);
+    let place = Asking { position, side: vertex.only_side(), own: vertex.facet() };
+    let way_out = match vertex.surface() {
+        None => engine.way_out_of_target(receiver, place),
+        Some(surface) => engine.way_out(place, surface.bsdf),
+    };
     let arrival = Arrival {
-        place: Asking { position, side: vertex.only_side(), own: vertex.facet() },
+        way_out,
         n: receiver.n,
         along_m,
         direction,
@@ -196,7 +201,8 @@ pub(super) fn share<S: Spectrum>(
     let part = receiver.straight_part(passing.is_straight_from_area());
     let found_by = passing.found_by(engine);
     let photons = receiver.photons(is_narrow, found_by) * part;
-    let others = weights.times(alone, 1.0).towards(vertex.survival_pdf_sr(-direction, favour(0)));
+    let eye_sr = way_out.survival_pdf_sr(engine, vertex, -direction, favour(0));
+    let others = weights.times(alone, 1.0).towards(eye_sr);
     let weight = photons / (photons + others);
     let traced = receiver.traced(is_narrow, found_by);
     vertex.weight(-direction) * passing.flux_lm * (weight / (receiver.area_m2 * part * traced))

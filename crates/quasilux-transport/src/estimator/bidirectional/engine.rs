@@ -7,7 +7,7 @@ use crate::bsdf::TransportMode;
 use crate::context::Context;
 use crate::control::watch::Watch;
 use crate::cutoff::Gain;
-use crate::importance::Copies;
+use crate::importance::{Copies, OpeningViews};
 use crate::lights::LightKind;
 use crate::sensors::Target;
 use crate::spectrum::Spectrum;
@@ -30,6 +30,8 @@ pub(super) struct Engine<'l, 'a, S> {
     pub(super) flux_quantum: Quantum,
     /// Copies of light subpaths by place; one everywhere before it is planned.
     pub(super) copies: Copies,
+    /// How places see outside, as far as that was surveyed.
+    pub(super) openings: OpeningViews,
     /// Whether light may grow on its way: surfaces may send on more than they get.
     may_grow: bool,
 }
@@ -53,6 +55,7 @@ impl<'l, 'a, S: Spectrum> Engine<'l, 'a, S> {
             emitters_found_by: FoundBy::new(emitters_lx, fluxes.emitters_lm / area_m2),
             sky_found_by: FoundBy::new(sky_lx, fluxes.sky_lm / area_m2),
             copies: Copies::single(0),
+            openings: OpeningViews::default(),
             may_grow: context.world.may_send_on_more(),
             flux_quantum: Quantum::for_reference(fluxes.most_lm().max(f64::MIN_POSITIVE)),
             fluxes,

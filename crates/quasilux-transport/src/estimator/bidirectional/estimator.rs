@@ -7,6 +7,7 @@ use super::flux_tally::FluxTally;
 use super::join_rate::plan_joins;
 use super::plan::SUBPATHS;
 use super::sums::TargetSums;
+use super::surveyed::survey;
 use super::unit::UnitSums;
 use crate::codec::{Reader, StateError, Sums, Writer, add_count, digest};
 use crate::context::Context;
@@ -15,7 +16,6 @@ use crate::estimator::Estimator;
 use crate::estimator::block::BlockFrame;
 use crate::estimator::exact::{ComputedLight, Exact, computed_light};
 use crate::estimator::progress::TargetProgress;
-use crate::importance::Copies;
 use crate::path::path_batch::WorkCounts;
 use crate::sensors::{by_sensor, targets};
 use crate::settings::{IntervalKind, Settings, Switch};
@@ -88,12 +88,11 @@ impl<'a, S: Spectrum> BidirectionalEstimator<'a, S> {
         let mut engine = Engine::new(context, &targets, watch)?;
         let is_certified = settings.interval == IntervalKind::Certified;
         let may_copy = settings.importance != Switch::Off && context.max_bounces != Some(0);
+        let mut pilot_rays = 0;
         if may_copy && !is_certified {
-            engine.copies = Copies::new(context, &targets, |sampler| {
-                engine.sources.pilot(&context.world, sampler)
-            });
+            pilot_rays += survey(&mut engine, &targets, watch)?;
         }
-        let pilot_rays = engine.copies.rays + plan_joins(&mut engine, watch)?;
+        pilot_rays += plan_joins(&mut engine, watch)?;
         let caps = Caps::new(&engine, watch)?;
         for (receiver, most_lx) in
             engine.receivers.iter_mut().zip(caps.of_samples_lx(&context.world))
@@ -255,7 +254,8 @@ impl<S: Spectrum> Estimator for BidirectionalEstimator<'_, S> {
     }
 
     fn decisions(&self) -> Decisions {
-        let Engine { receivers, emitters_found_by, sky_found_by, copies, .. } = &self.engine;
+        let Engine { receivers, emitters_found_by, sky_found_by, copies, openings, .. } =
+            &self.engine;
         Decisions {
             connected_photons: Some(SUBPATHS),
             digest: digest(|out| {
@@ -264,9 +264,12 @@ impl<S: Spectrum> Estimator for BidirectionalEstimator<'_, S> {
                 out.value(&exact.map(Exact::sum_lx).collect::<Vec<f64>>());
                 out.value(&SUBPATHS);
                 copies.put(out);
+                openings.put(out);
                 out.value(&[*emitters_found_by, *sky_found_by]);
-                let of_receivers = receivers.iter().map(|it| [it.area_m2, it.per_sure_m2]);
-                out.value(&of_receivers.collect::<Vec<[f64; 2]>>());
+                let of_receivers = receivers
+                    .iter()
+                    .map(|it| [it.area_m2, it.per_sure_m2, it.view.through, it.view.blocked]);
+                out.value(&of_receivers.collect::<Vec<[f64; 4]>>());
             }),
             ..Decisions::default()
         }

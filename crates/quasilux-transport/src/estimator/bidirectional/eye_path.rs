@@ -6,6 +6,7 @@ mod start;
 
 use super::departure::Departure;
 use super::engine::Engine;
+use super::leading::{Onward, WayOut};
 use super::light_subpath::{LightVertex, is_narrow};
 use super::mirrored_way::MirroredWay;
 use super::plan::{CONNECTED, FoundBy, JoinEdge, Receiver, favour};
@@ -74,7 +75,7 @@ struct LastVertex<S> {
     /// Having left it.
     weights: EyeWeights,
     /// Where the path asked for light; `None` since it was mirrored or refracted.
-    asked_from: Option<Asking>,
+    asked_from: Option<WayOut>,
     /// Since it asked for light: over mirrors alone.
     mirrored: Option<MirroredFrom<S>>,
     /// Bounces behind the light that it asked for.
@@ -249,23 +250,26 @@ impl<S: Spectrum> EyePath<'_, S> {
         work.shadows.max_bounces =
             context.max_bounces.map_or(u32::MAX, |most| most - self.last.bounces_asked);
         let number = self.passed.vertices as usize;
-        let eye_vertex = &EyeVertex { vertex, weights: here, copies, number };
+        let way_out = engine.way_out(Asking::at(vertex), bsdf);
+        let eye_vertex = &EyeVertex { vertex, way_out, weights: here, copies, number };
         self.sample_direct_pointlike(engine, eye_vertex, work);
         self.sample_direct_images(engine, eye_vertex, work);
         self.sample_direct_areas(engine, eye_vertex, eye_vertex, work);
         self.connect(engine, eye_vertex, work);
-        let next = bsdf.sample(wo, at.front, TransportMode::Radiance, &mut self.sampler);
-        let Some(next) = next else { return false };
+        let onward = way_out.sample_onward(engine, surface, at.front, &mut self.sampler);
+        let Some(Onward { next, led }) = onward else { return false };
         let favour = favour(number);
-        let pdfs_sr =
-            [bsdf.survival_pdf_sr(wo, next.wi, favour), bsdf.survival_pdf_sr(next.wi, wo, 1.0)];
+        let pdfs_sr = [
+            led.survival_pdf_sr(bsdf, wo, next.wi, favour),
+            bsdf.survival_pdf_sr(next.wi, wo, 1.0),
+        ];
         let cos = next.wi.z.abs();
         self.last.weights =
             here.map(|it| it.scattered_where_copied(cos, pdfs_sr[0], pdfs_sr[1], copies));
         self.distance_m = 0.0;
-        self.last.asked_from = Some(Asking::at(vertex));
+        self.last.asked_from = Some(way_out);
         self.last.mirrored = MirroredFrom::new(context, vertex, pdfs_sr[0]);
-        self.go_on(engine, at, &frame, &next, favour)
+        self.go_on(engine, at, &frame, &next, led.favour(favour))
     }
 
     /// Goes on from a mirror, from glass, or through a pane.
@@ -348,7 +352,9 @@ impl<S: Spectrum> EyePath<'_, S> {
             (Some(Asked { pdf_m2, inverse_m2 }), _) => {
                 (pdf_m2, arrived.map(|it| it.asked(inverse_m2)))
             }
-            (None, Some(place)) => (emitters.pdf_m2(&context.world, place, asked), arrived),
+            (None, Some(WayOut { place, .. })) => {
+                (emitters.pdf_m2(&context.world, place, asked), arrived)
+            }
             (None, None) => (0.0, arrived),
         };
         let emission = engine.sources.of_emitters_per_lm() * emitted_cd_m2 * cos;
@@ -389,7 +395,7 @@ impl<S: Spectrum> EyePath<'_, S> {
         let sky_cd_m2 = outside.luminance_cd_m2(direction);
         if sky_cd_m2 != 0.0 {
             let asked_sr =
-                self.last.asked_from.map_or(0.0, |place| outside.pdf_sr(place, direction));
+                self.last.asked_from.map_or(0.0, |from| from.asked_sr(outside, direction));
             let light = self.beta * (sky_cd_m2 * share(asked_sr, false));
             self.receiver.assert_capped("the sky", light);
             found.add(self.section, self.passed.surfaces, light);

@@ -6,6 +6,7 @@
 //! the list of all (systematic sampling), from one coordinate.
 
 use super::engine::Engine;
+use super::leading::WayOut;
 use super::light_subpath::{LightSubpaths, LightVertex};
 use super::plan::{JoinEdge, Receiver, favour};
 use crate::bsdf::TransportMode;
@@ -21,6 +22,7 @@ use std::ops::Range;
 pub(super) struct Joiner<'r, S> {
     pub(super) receiver: &'r Receiver,
     pub(super) vertex: Vertex<'r, S>,
+    pub(super) way_out: WayOut,
     /// Surfaces and panes on the way of a light vertex at most, itself counted.
     pub(super) max_bounces: u32,
     /// How far it is to the next vertex that is taken, in chances.
@@ -65,6 +67,13 @@ impl<S: Spectrum> Joiner<'_, S> {
     }
 }
 
+impl<S: Spectrum> Joiner<'_, S> {
+    /// Density in sr^-1 of eye paths that start here along a direction.
+    fn survival_pdf_sr(&self, engine: &Engine<'_, '_, S>, direction: DVec3) -> f64 {
+        self.way_out.survival_pdf_sr(engine, &self.vertex, direction, favour(0))
+    }
+}
+
 /// The edge between a target and a light vertex.
 struct Join {
     /// Unit direction from the target.
@@ -94,8 +103,9 @@ impl Join {
         shadows: &mut ShadowQueue<S>,
     ) {
         let &Self { direction, distance_m, ref edge } = self;
-        let LightVertex { at, frame, wo, flux_lm, bounces, weights, is_narrow, found_by, .. } =
-            vertex;
+        let LightVertex {
+            at, frame, wo, flux_lm, bounces, weights, is_narrow, found_by, led, ..
+        } = vertex;
         let bsdf = engine.context.world.bsdf(at);
         let wi = frame.to_local(-direction);
         if wi.z <= 0.0 && !(wi.z < 0.0 && bsdf.transmits()) {
@@ -110,8 +120,8 @@ impl Join {
             photons / joins,
         );
         let to_light = product(
-            joiner.vertex.survival_pdf_sr(direction, favour(0)) * wi.z.abs() / square_m2,
-            weights.numbered(1).towards(bsdf.survival_pdf_sr(wi, *wo, favour(1))) / joins,
+            joiner.survival_pdf_sr(engine, direction) * wi.z.abs() / square_m2,
+            weights.numbered(1).towards(led.survival_pdf_sr(bsdf, wi, *wo, favour(1))) / joins,
         );
         let lx = cos * cos_there / square_m2 / joins * of_connection(to_eye, to_light);
         let light = joiner.vertex.weight(direction) * *flux_lm * scattered * lx;

@@ -10,6 +10,7 @@ use super::departure::Departure;
 use super::engine::Engine;
 use super::flux_tally::FluxTally;
 use super::join_places::{JoinPlace, JoinPlaces};
+use super::leading::{Led, WayOut};
 use super::light_weights::LightWeights;
 use super::mirrored_way::MirroredWay;
 use super::plan::{CONNECTED, FoundBy};
@@ -42,6 +43,8 @@ pub(super) struct LightVertex<S> {
     pub(super) weights: LightWeights,
     pub(super) is_narrow: bool,
     pub(super) found_by: FoundBy,
+    /// Eye paths that are led to where it came from.
+    pub(super) led: Led,
     /// Copies of its subpath that leave it, on average, and of each that comes.
     pub(super) copies: f64,
     pub(super) split: f64,
@@ -302,7 +305,8 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
             self.pass_specular(engine, at, wo.z, &next);
             return self.go_on(engine, at, &frame, &next, flux);
         }
-        let vertex = self.vertex(engine, at, frame, wo);
+        let way_out = way_out(engine, at, bsdf);
+        let vertex = self.vertex(engine, at, frame, wo, &way_out);
         let goes_on = self.scatter_in_copies(engine, &vertex, born, flux);
         found.push(FoundVertex { subpath: self.number, vertex });
         goes_on
@@ -323,7 +327,7 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
             self.leg.distance_m += at.distance_m;
             self.leg.mirrored = None;
         } else {
-            let weights = self.weights_at(engine, at, bsdf, cos_wo);
+            let weights = self.weights_at(engine, at, &way_out(engine, at, bsdf), bsdf, cos_wo);
             let last = LastVertex::Surface { cos: next.wi.z.abs(), is_narrow: true };
             let scale = bsdf.radiance_scale(next.wi, at.front);
             let weights = weights.mirrored(cos_wo.abs(), scale);
@@ -364,15 +368,15 @@ impl<'p, S: Spectrum> LightSubpath<'p, S> {
         &self,
         engine: &Engine<'_, '_, S>,
         at: &Interaction,
+        way_out: &WayOut,
         bsdf: &Bsdf<S>,
         cos: f64,
     ) -> LightWeights {
         if let Some(landings_m2) = self.mirrored_landings_m2(engine, at, bsdf) {
             return SubpathWeights::of_landing(Some(landings_m2)).into();
         }
-        let side = (!bsdf.transmits()).then_some(at.n);
         let arrival = Arrival {
-            place: Asking { position: at.position, side, own: Some(at.facet) },
+            way_out: *way_out,
             n: at.n,
             along_m: at.distance_m,
             direction: self.direction,
@@ -467,6 +471,12 @@ impl<S: Spectrum> Passing<'_, S> {
     ) -> SubpathWeights {
         self.leg.weights_at(engine, self.photon, arrival).numbered(0)
     }
+}
+
+/// The way out of a surface where a subpath arrived.
+fn way_out<S: Spectrum>(engine: &Engine<'_, '_, S>, at: &Interaction, bsdf: &Bsdf<S>) -> WayOut {
+    let side = (!bsdf.transmits()).then_some(at.n);
+    engine.way_out(Asking { position: at.position, side, own: Some(at.facet) }, bsdf)
 }
 
 /// Whether a surface sends much of the light of a direction into few others, so that only photons

@@ -4,6 +4,7 @@
 //! that a vertex has in it: a light subpath, which does not know how far it is to the target, keeps
 //! the sums for each number that there may be.
 
+use super::leading::Led;
 use super::plan::{FAVOURED, favour};
 use crate::bsdf::Bsdf;
 use crate::path::subpath_weights::SubpathWeights;
@@ -32,17 +33,18 @@ impl LightWeights {
         Self(self.0.map(change))
     }
 
-    /// After it was scattered along `wi`, having come from `wo`, in this many copies on average.
+    /// After it was scattered along `wi`, having come from `wo`, where some eye paths are led, in
+    /// this many copies on average.
     pub(super) fn scattered<S: Spectrum>(
         &self,
         bsdf: &Bsdf<S>,
-        wo: DVec3,
-        wi: DVec3,
+        [wo, wi]: [DVec3; 2],
+        led: Led,
         copies: f64,
     ) -> Self {
         let pdf_sr = copies * bsdf.survival_pdf_sr(wo, wi, 1.0);
         let [other_sr, favoured_sr] =
-            [1.0, favour(FAVOURED)].map(|favour| bsdf.survival_pdf_sr(wi, wo, favour));
+            [1.0, favour(FAVOURED)].map(|favour| led.survival_pdf_sr(bsdf, wi, wo, favour));
         self.followed(|before, is_favoured| {
             let reverse_pdf_sr = if is_favoured { favoured_sr } else { other_sr };
             before.scattered(wi.z.abs(), pdf_sr, reverse_pdf_sr)

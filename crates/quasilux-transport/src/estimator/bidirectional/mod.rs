@@ -25,6 +25,9 @@
 //! alone, a power of two, 1 at lights. So `L_j` has the factor `C(x_(j + 1))`, which eye paths know
 //! as well; each copy carries as much less.
 //!
+//! Where surfaces outside hide the sky from openings, a part of the eye paths is led through these
+//! (`leading`), by a survey as well.
+//!
 //! A surface makes the next vertex with `min(pdf, f cos)`: roulette is part of the density
 //! ([`crate::bsdf::Bsdf::survival_pdf_sr`]). The first two of an eye path make it with `min(pdf, 2
 //! f cos)` (`plan::favour`, `light_weights`). A lamp is left with half of its share of the flux and
@@ -78,6 +81,7 @@ mod intensities;
 mod join_places;
 mod join_rate;
 mod joins;
+mod leading;
 mod light_subpath;
 mod light_weights;
 mod mirrored_way;
@@ -91,6 +95,7 @@ mod samples;
 mod sources;
 mod sums;
 mod supremum;
+mod surveyed;
 mod unit;
 
 #[cfg(doc)]

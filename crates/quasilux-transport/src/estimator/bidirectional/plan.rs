@@ -11,6 +11,7 @@ use super::nearest_emitter::EmittingFacets;
 use crate::bsdf::Bsdf;
 use crate::context::Context;
 use crate::control::watch::{POINTS_AT_ONCE, Watch};
+use crate::importance::OpeningView;
 use crate::sensors::Target;
 use crate::spectrum::Spectrum;
 use crate::world::grid_plane::GridPlane;
@@ -147,6 +148,8 @@ pub(super) struct Receiver {
     pub(super) photons: u64,
     /// In m^2: a join is made for certain where cosines over squared distance are one over it.
     pub(super) per_sure_m2: f64,
+    /// How it sees outside.
+    pub(super) view: OpeningView,
     /// The most in lx that a sample adds to one index (`caps`), for assertions.
     pub(super) most_lx: f64,
 }
@@ -226,6 +229,7 @@ impl Receiver {
                     subpaths: SUBPATHS,
                     photons: SUBPATHS,
                     per_sure_m2,
+                    view: OpeningView::UNKNOWN,
                     most_lx: f64::INFINITY,
                 }
             }
@@ -244,6 +248,7 @@ impl Receiver {
                     subpaths: SUBPATHS,
                     photons: SUBPATHS,
                     per_sure_m2,
+                    view: OpeningView::UNKNOWN,
                     most_lx: f64::INFINITY,
                 }
             }

@@ -110,9 +110,11 @@ impl Unit<'_> {
             let places = (0..).step_by(SUBPATHS as usize);
             for (place, index) in places.zip(self.indices.clone()) {
                 let u = || [0, 1].map(|dimension| points.coordinate(index, dimension));
+                let vertex = Vertex::sensor(receiver.origin(world, u), receiver.n);
                 let mut joiner = Joiner {
                     receiver,
-                    vertex: Vertex::sensor(receiver.origin(world, u), receiver.n),
+                    way_out: engine.way_out_of_start(receiver, &vertex),
+                    vertex,
                     max_bounces: work.shadows.max_bounces,
                     next: points.coordinate(index, 2),
                 };

@@ -4,6 +4,7 @@
 use super::{EyePath, EyePaths, EyeWeights};
 use crate::bsdf::TransportMode;
 use crate::estimator::bidirectional::engine::Engine;
+use crate::estimator::bidirectional::leading::WayOut;
 use crate::estimator::bidirectional::light_subpath::LightVertex;
 use crate::estimator::bidirectional::plan::{CONNECTED, FoundBy, favour};
 use crate::lights::{Asking, Choice, ChosenPlace, DrawnDirection, EmitterPoint};
@@ -24,6 +25,7 @@ const ASKED_AT_ONCE: usize = 8;
 /// Vertex of an eye path that asks for light.
 pub(super) struct EyeVertex<'v, 'w, S> {
     pub(super) vertex: &'v Vertex<'w, S>,
+    pub(super) way_out: WayOut,
     pub(super) weights: EyeWeights,
     /// Copies of light subpaths that leave it.
     pub(super) copies: f64,
@@ -229,14 +231,14 @@ impl<S: Spectrum> EyePath<'_, S> {
             let line = engine.sources.pdf_line(vertex.position(), -direction, of_sun);
             let found_by = if of_sun { FoundBy::Photons } else { engine.sky_found_by };
             let landed = product(line * cos / pdf_sr, eye_vertex.to_eye(direction, found_by, 1.0));
-            let hit = eye_vertex.survival_pdf_sr(direction) / pdf_sr;
+            let hit = eye_vertex.survival_pdf_sr(engine, direction) / pdf_sr;
             let lx = cd_m2 * cos / pdf_sr * of_connection(landed, hit);
             let light = vertex.weight(direction) * lx;
             LightSample::unless_dark(direction, outside.beyond_m(), light, lx)
         };
         if outside.is_asked_for() {
             let u = self.sampler.next_2d();
-            let asked = outside.sample_asked(Asking::at(vertex), u);
+            let asked = eye_vertex.way_out.sample_asked(outside, u);
             let found = asked.and_then(|DrawnDirection { direction, pdf_sr }| {
                 sample(direction, pdf_sr, outside.luminance_cd_m2(direction), false)
             });
@@ -322,8 +324,8 @@ impl<S: Spectrum> EyeVertex<'_, '_, S> {
     }
 
     /// Density in sr^-1 of paths that go on from here along `direction`, survival in it.
-    fn survival_pdf_sr(&self, direction: DVec3) -> f64 {
-        self.vertex.survival_pdf_sr(direction, favour(self.number))
+    fn survival_pdf_sr(&self, engine: &Engine<'_, '_, S>, direction: DVec3) -> f64 {
+        self.way_out.survival_pdf_sr(engine, self.vertex, direction, favour(self.number))
     }
 
     /// Densities in sr^-1 of the other techniques beside asking for a point of an emitting facet,
@@ -332,7 +334,7 @@ impl<S: Spectrum> EyeVertex<'_, '_, S> {
         let &EmitterPoint { direction, lx_sr, kept, .. } = point;
         let to_eye = self.to_eye(direction, engine.emitters_found_by, 1.0);
         let landed = product(engine.sources.of_emitters_per_lm() * lx_sr, to_eye);
-        kept * (self.survival_pdf_sr(direction) + landed)
+        kept * (self.survival_pdf_sr(engine, direction) + landed)
     }
 
     /// The part of the light of a lamp that photons leave, where it is asked with this probability.
@@ -349,7 +351,7 @@ impl<S: Spectrum> EyeVertex<'_, '_, S> {
         engine: &Engine<'_, '_, S>,
         light_vertex: &'l LightVertex<S>,
     ) -> Option<Connection<'l, S>> {
-        let LightVertex { at, frame, wo, flux_lm, weights, found_by, copies, split, .. } =
+        let LightVertex { at, frame, wo, flux_lm, weights, found_by, led, copies, split, .. } =
             light_vertex;
         let way = at.position - self.vertex.position();
         let square_m2 = way.length_squared();
@@ -365,8 +367,9 @@ impl<S: Spectrum> EyeVertex<'_, '_, S> {
         let scattered = bsdf.evaluate(*wo, wi, at.front, TransportMode::Importance);
         let cos_there = wi.z.abs();
         let to_light = product(
-            self.survival_pdf_sr(direction) * cos_there / square_m2,
-            weights.numbered(self.number + 1).towards(bsdf.survival_pdf_sr(
+            self.survival_pdf_sr(engine, direction) * cos_there / square_m2,
+            weights.numbered(self.number + 1).towards(led.survival_pdf_sr(
+                bsdf,
                 wi,
                 *wo,
                 favour(self.number + 1),

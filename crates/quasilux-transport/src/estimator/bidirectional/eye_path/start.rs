@@ -3,21 +3,19 @@
 
 use super::asking::EyeVertex;
 use super::{EyePath, EyePaths, EyeWeights, LastVertex, MirroredFrom, Passed};
-use crate::bsdf::TransportMode;
 use crate::context::Context;
 use crate::cutoff::Gain;
 use crate::estimator::bidirectional::engine::Engine;
+use crate::estimator::bidirectional::leading::{Onward, WayOut};
 use crate::estimator::bidirectional::light_subpath::LightSubpaths;
 use crate::estimator::bidirectional::plan::{Receiver, favour};
-use crate::lights::Asking;
+use crate::lights::DrawnDirection;
 use crate::path::subpath_weights::SubpathWeights;
 use crate::spectrum::Spectrum;
 use crate::world::Interaction;
-use crate::world::frame::Frame;
 use crate::world::vertex::{Surface, Vertex};
 use glam::DVec3;
 use quasilux_sampling::Sampler;
-use quasilux_sampling::warp::sample_cosine_hemisphere;
 use std::f64::consts::{FRAC_1_PI, PI};
 
 /// Where an eye path starts, and who gets what it finds.
@@ -89,15 +87,20 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
     fn start_at_target(&mut self, engine: &Engine<'_, '_, S>, work: &mut EyePaths<S>) -> bool {
         let context = engine.context;
         let n = self.receiver.n;
-        let local = DVec3::from_array(sample_cosine_hemisphere(self.sampler.next_2d()));
-        self.direction = Frame::around(n).to_world(local);
         let vertex = &Vertex::sensor(self.from, n);
+        let way_out = engine.way_out_of_start(self.receiver, vertex);
+        let onward = way_out.sample_start(engine, n, self.sampler.next_2d());
         work.shadows.max_bounces = context.max_bounces.unwrap_or(u32::MAX);
         if self.receiver.is_cell() {
-            self.sample_direct_all_pointlikes(engine, &self.beside_photons(vertex, false), work);
+            let beside = &self.beside_photons(vertex, way_out, false);
+            self.sample_direct_all_pointlikes(engine, beside, work);
         }
-        self.sample_direct_at_start(engine, vertex, work);
-        self.leave(context, vertex, local.z * FRAC_1_PI, local.z);
+        self.sample_direct_at_start(engine, vertex, way_out, work);
+        let Some(DrawnDirection { direction, pdf_sr }) = onward else { return false };
+        let cos = n.dot(direction);
+        self.direction = direction;
+        self.beta = self.beta * (cos * FRAC_1_PI / pdf_sr);
+        self.leave(context, vertex, way_out, [pdf_sr, cos]);
         true
     }
 
@@ -117,15 +120,17 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
             .max_bounces
             .map_or(u32::MAX, |most| most.saturating_sub(self.last.bounces_asked));
         // Photons of lights that have no extent, and of their images, do not count here.
-        let alone = &EyeVertex { vertex, weights: EyeWeights::default(), copies: 1.0, number: 0 };
+        let way_out = engine.way_out_of_start(self.receiver, vertex);
+        let weights = EyeWeights::default();
+        let alone = &EyeVertex { vertex, way_out, weights, copies: 1.0, number: 0 };
         self.sample_direct_some_pointlikes(engine, vertex, work);
         self.sample_direct_images(engine, alone, work);
-        self.sample_direct_at_start(engine, vertex, work);
-        let next = bsdf.sample(wo, at.front, TransportMode::Radiance, &mut self.sampler);
-        let Some(next) = next else { return false };
-        let pdf_sr = bsdf.survival_pdf_sr(wo, next.wi, favour(0));
-        self.leave(context, vertex, pdf_sr, next.wi.z.abs());
-        self.go_on(engine, at, &frame, &next, favour(0))
+        self.sample_direct_at_start(engine, vertex, way_out, work);
+        let onward = way_out.sample_onward(engine, surface, at.front, &mut self.sampler);
+        let Some(Onward { next, led }) = onward else { return false };
+        let pdf_sr = led.survival_pdf_sr(bsdf, wo, next.wi, favour(0));
+        self.leave(context, vertex, way_out, [pdf_sr, next.wi.z.abs()]);
+        self.go_on(engine, at, &frame, &next, led.favour(favour(0)))
     }
 
     /// Asks for the light of lights with an area, and from outside, beside photons that come
@@ -134,16 +139,23 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
         &mut self,
         engine: &Engine<'_, '_, S>,
         vertex: &Vertex<'_, S>,
+        way_out: WayOut,
         work: &mut EyePaths<S>,
     ) {
-        let [others, of_area] = [false, true].map(|it| self.beside_photons(vertex, it));
+        let [others, of_area] = [false, true].map(|it| self.beside_photons(vertex, way_out, it));
         self.sample_direct_areas(engine, &others, &of_area, work);
     }
 
     /// Sets the weights after it left where it measures, in a direction of this density and cosine.
-    fn leave(&mut self, context: &Context<'_, S>, vertex: &Vertex<'_, S>, pdf_sr: f64, cos: f64) {
+    fn leave(
+        &mut self,
+        context: &Context<'_, S>,
+        vertex: &Vertex<'_, S>,
+        way_out: WayOut,
+        [pdf_sr, cos]: [f64; 2],
+    ) {
         self.last.weights = EyeWeights([SubpathWeights::new(1.0 / pdf_sr, cos / pdf_sr); 2]);
-        self.last.asked_from = Some(Asking::at(vertex));
+        self.last.asked_from = Some(way_out);
         self.last.mirrored = MirroredFrom::new(context, vertex, pdf_sr);
     }
 
@@ -151,11 +163,13 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
     fn beside_photons<'v, 'w>(
         &self,
         vertex: &'v Vertex<'w, S>,
+        way_out: WayOut,
         is_of_area: bool,
     ) -> EyeVertex<'v, 'w, S> {
         let photons = self.receiver.straight_m2(is_of_area);
         EyeVertex {
             vertex,
+            way_out,
             number: 0,
             copies: 1.0,
             weights: EyeWeights([SubpathWeights::new(photons, 0.0); 2]),

@@ -3,6 +3,7 @@
 
 use super::super::engine::Engine;
 use super::super::flux_tally::FluxTally;
+use super::super::leading::WayOut;
 use super::{LastVertex, Leg, LightSubpath, LightVertex, is_narrow};
 use crate::bsdf::TransportMode;
 use crate::lights::images::LightPathClass;
@@ -19,6 +20,7 @@ impl<S: Spectrum> LightSubpath<'_, S> {
         at: &Interaction,
         frame: Frame,
         wo: DVec3,
+        way_out: &WayOut,
     ) -> LightVertex<S> {
         let bsdf = engine.context.world.bsdf(at);
         let copies = engine.copies.at(at);
@@ -28,9 +30,10 @@ impl<S: Spectrum> LightSubpath<'_, S> {
             wo,
             flux_lm: self.flux_lm,
             bounces: self.bounces,
-            weights: self.weights_at(engine, at, bsdf, wo.z),
+            weights: self.weights_at(engine, at, way_out, bsdf, wo.z),
             is_narrow: is_narrow(bsdf),
             found_by: engine.found_by(&self.photon),
+            led: way_out.led(engine, -self.direction),
             copies,
             split: copies / self.copies,
         }
@@ -70,12 +73,12 @@ impl<S: Spectrum> LightSubpath<'_, S> {
         vertex: &LightVertex<S>,
         flux: &mut FluxTally,
     ) -> bool {
-        let LightVertex { at, frame, wo, weights, is_narrow, split, .. } = vertex;
+        let LightVertex { at, frame, wo, weights, is_narrow, split, led, .. } = vertex;
         let bsdf = engine.context.world.bsdf(at);
         let next = bsdf.sample(*wo, at.front, TransportMode::Importance, &mut self.sampler);
         let Some(next) = next else { return false };
         let cos = next.wi.z.abs();
-        let weights = weights.scattered(bsdf, *wo, next.wi, *split);
+        let weights = weights.scattered(bsdf, [*wo, next.wi], *led, *split);
         let last = LastVertex::Surface { cos, is_narrow: *is_narrow };
         let (class, mirrored) = (LightPathClass::Found, None);
         self.leg = Leg { weights, distance_m: 0.0, last, class, mirrored };

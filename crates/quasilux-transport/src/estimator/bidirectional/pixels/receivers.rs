@@ -6,6 +6,7 @@ use super::{DVec3, PixelTracer, Spectrum, World};
 use crate::estimator::bidirectional::plan::{
     PhotonDisc, Receiver, around, largest_disc_m2, largest_radius_m, per_sure_before_pilots_m2,
 };
+use crate::importance::OpeningView;
 use crate::path::path_batch::WorkCounts;
 use crate::sensors::Target;
 use crate::world::Interaction;
@@ -28,6 +29,7 @@ pub(super) fn largest_receiver<S: Spectrum>(world: &World<S>, photons: Option<u6
         subpaths: SUBPATHS,
         photons: photons.unwrap_or(SUBPATHS),
         per_sure_m2: per_sure_before_pilots_m2(world),
+        view: OpeningView::UNKNOWN,
         most_lx: f64::INFINITY,
     }
 }

@@ -92,9 +92,11 @@ impl<S: Spectrum> PixelTracer<'_, S> {
             let first = &seen.surface;
             let left = context.max_bounces.map_or(u32::MAX, |most| most - first.bounces - 1);
             let surface = &Surface::new(world, &first.at, first.direction);
+            let vertex = Vertex::on(world, &first.at, surface, first.beta);
             let mut joiner = Joiner {
                 receiver,
-                vertex: Vertex::on(world, &first.at, surface, first.beta),
+                way_out: self.engine.way_out_of_start(receiver, &vertex),
+                vertex,
                 max_bounces: left,
                 next: seen.sampler.child(JOINS).next_1d(),
             };
