@@ -131,7 +131,7 @@ struct Lines {
     around: Vec<RayQuery>,
     /// Through openings, to their ends.
     through: Vec<RayQuery>,
-    /// The same lines as far as the openings.
+    /// Parts of these lines as far as the openings.
     to_openings: Vec<RayQuery>,
 }
 
@@ -155,7 +155,7 @@ impl Lines {
         (self.around.len() + self.through.len() + self.to_openings.len()) as u64
     }
 
-    /// What they see, of this many lines of each kind that were tried.
+    /// View by them, of this many lines of each kind that were tried.
     fn seen<S: Spectrum>(
         &self,
         context: &Context<'_, S>,

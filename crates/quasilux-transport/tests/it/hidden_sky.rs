@@ -65,8 +65,8 @@ fn open_sky_sr(place: DVec3, n: DVec3, [low, high]: [DVec3; 2]) -> f64 {
     sum * TAU / (4 * ROWS * ROWS) as f64
 }
 
-/// What a point in a black room gets through its window from a wall before it, lit by an even sky
-/// of 1 cd/m2 over a black ground, and from the sky beside that wall: in lx.
+/// Illuminance in lx of a point in a black room through its window, from a wall before that, lit by
+/// an even sky of 1 cd/m2 over a black ground, and from the sky beside that wall.
 fn through_window(
     window: &Opening,
     wall: &Panel,

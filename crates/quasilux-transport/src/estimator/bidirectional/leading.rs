@@ -365,8 +365,8 @@ mod tests {
         });
     }
 
-    /// What goes on from surfaces and targets, counted by its weight, is what they scatter: all of
-    /// it, and the part toward y < 0, which is a half on floors.
+    /// Surfaces and targets send on what they scatter, counted by its weight: all of it, and the
+    /// part toward y < 0, which is a half on floors.
     #[test]
     fn paths_that_are_led_carry_what_surfaces_scatter() {
         with_engine(|engine| {
