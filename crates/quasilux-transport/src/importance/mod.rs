@@ -22,7 +22,7 @@ mod weight_windows;
 
 pub(crate) use copies::Copies;
 pub(crate) use guiding_tree::{GuidingTree, MAX_NODES, Node};
-pub(crate) use openings::{Looked, OpeningView, OpeningViews, Outlook};
+pub(crate) use openings::{Looked, LookingPlace, OpeningView, OpeningViews};
 pub(crate) use survey::{PilotPhoton, Survey};
 pub(crate) use weight_windows::{Split, WeightWindows};
 

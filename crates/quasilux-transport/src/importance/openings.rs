@@ -50,7 +50,7 @@ pub(crate) struct OpeningViews {
 }
 
 /// A place that looks out.
-pub(crate) struct Outlook {
+pub(crate) struct LookingPlace {
     pub(crate) from: RayOrigin,
     /// The side of it.
     pub(crate) n: DVec3,
@@ -66,7 +66,7 @@ impl OpeningView {
         context: &Context<'_, S>,
         stream: Stream,
         number: u64,
-        outlook: impl Fn(u32) -> Outlook,
+        place_of: impl Fn(u32) -> LookingPlace,
         looks: u32,
     ) -> Looked {
         let Some(outside) = context.lights.outside.as_ref() else {
@@ -77,7 +77,7 @@ impl OpeningView {
         for look in 0..looks {
             let index = number * u64::from(looks) + u64::from(look);
             let mut sampler = Sampler::new(&points, index);
-            lines.add(outside, &outlook(look), &mut sampler);
+            lines.add(outside, &place_of(look), &mut sampler);
         }
         Looked { view: lines.seen(context, outside, looks), rays: lines.rays() }
     }
@@ -94,11 +94,11 @@ impl OpeningViews {
             return Self::default();
         }
         let look = |(number, cell): (usize, &SurveyCell)| {
-            let outlook = |look: u32| {
+            let place_of = |look: u32| {
                 let at = &cell.places[look as usize % cell.places.len()];
-                Outlook { from: context.world.ray_origin(at), n: at.n }
+                LookingPlace { from: context.world.ray_origin(at), n: at.n }
             };
-            OpeningView::look(context, Stream::Survey(4), number as u64, outlook, LOOKS)
+            OpeningView::look(context, Stream::Survey(4), number as u64, place_of, LOOKS)
         };
         let looks: Vec<Looked> = survey.known.par_iter().enumerate().map(look).collect();
         let rays = looks.iter().map(|it| it.rays).sum();
@@ -136,8 +136,8 @@ struct Lines {
 }
 
 impl Lines {
-    fn add(&mut self, outside: &OutsideLight<'_>, from: &Outlook, sampler: &mut Sampler<'_>) {
-        let &Outlook { from, n } = from;
+    fn add(&mut self, outside: &OutsideLight<'_>, from: &LookingPlace, sampler: &mut Sampler<'_>) {
+        let &LookingPlace { from, n } = from;
         let local = DVec3::from_array(sample_cosine_hemisphere(sampler.next_2d()));
         self.around.push(from.query(Frame::around(n).to_world(local)));
         let place = Asking { position: from.position(), side: Some(n), own: from.facet() };

@@ -6,7 +6,7 @@ mod start;
 
 use super::departure::Departure;
 use super::engine::Engine;
-use super::leading::{Onward, WayOut};
+use super::leading::{OnwardSample, WayOut};
 use super::light_subpath::{LightVertex, is_narrow};
 use super::mirrored_way::MirroredWay;
 use super::plan::{CONNECTED, FoundBy, JoinEdge, Receiver, favour};
@@ -257,7 +257,7 @@ impl<S: Spectrum> EyePath<'_, S> {
         self.sample_direct_areas(engine, eye_vertex, eye_vertex, work);
         self.connect(engine, eye_vertex, work);
         let onward = way_out.sample_onward(engine, surface, at.front, &mut self.sampler);
-        let Some(Onward { next, led }) = onward else { return false };
+        let Some(OnwardSample { next, led }) = onward else { return false };
         let favour = favour(number);
         let pdfs_sr = [
             led.survival_pdf_sr(bsdf, wo, next.wi, favour),

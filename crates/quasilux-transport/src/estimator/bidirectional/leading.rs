@@ -53,7 +53,7 @@ struct DrawnWay {
 }
 
 /// A direction in which a path goes on, if it survives.
-pub(super) struct Onward<S> {
+pub(super) struct OnwardSample<S> {
     pub(super) next: BsdfSample<S>,
     pub(super) led: Led,
 }
@@ -160,11 +160,11 @@ impl WayOut {
         surface: &Surface<'_, S>,
         front: bool,
         sampler: &mut Sampler<'_>,
-    ) -> Option<Onward<S>> {
+    ) -> Option<OnwardSample<S>> {
         let &Surface { bsdf, frame, wo, .. } = surface;
         if self.led == 0.0 {
             let next = bsdf.sample(wo, front, TransportMode::Radiance, sampler)?;
-            return Some(Onward { next, led: Led::default() });
+            return Some(OnwardSample { next, led: Led::default() });
         }
         let (wi, led) = if sampler.choose_bool(self.led) {
             let DrawnWay { direction, led } = self.sample_led(engine, sampler.next_2d())?;
@@ -175,7 +175,7 @@ impl WayOut {
         };
         let pdf_sr = led.mixed_sr(bsdf.pdf_sr(wo, wi, front));
         let weight = bsdf.evaluate(wo, wi, front, TransportMode::Radiance) * (wi.z.abs() / pdf_sr);
-        Some(Onward { next: BsdfSample { wi, weight, pdf_sr: Some(pdf_sr) }, led })
+        Some(OnwardSample { next: BsdfSample { wi, weight, pdf_sr: Some(pdf_sr) }, led })
     }
 
     /// A direction through an opening.
@@ -379,7 +379,7 @@ mod tests {
             let sampled =
                 |index| way_out.sample_onward(engine, surface, floor.front, &mut sampler(index));
             let weight = |of: fn(DVec3) -> bool| {
-                move |onward: Option<Onward<f64>>| {
+                move |onward: Option<OnwardSample<f64>>| {
                     let next = onward.map(|it| it.next);
                     next.filter(|it| of(surface.frame.to_world(it.wi))).map_or(0.0, |it| it.weight)
                 }
@@ -417,7 +417,7 @@ mod tests {
                 for index in 0..200 {
                     let sampler = &mut Sampler::new(&points, index);
                     let onward = way_out.sample_onward(engine, surface, at.front, sampler);
-                    let Some(Onward { next, led }) = onward else { continue };
+                    let Some(OnwardSample { next, led }) = onward else { continue };
                     let pdf_sr = next.pdf_sr.expect("it scatters");
                     let survival = (led.favour(1.0) * next.weight).min(1.0);
                     let expected = led.survival_pdf_sr(surface.bsdf, surface.wo, next.wi, 1.0);

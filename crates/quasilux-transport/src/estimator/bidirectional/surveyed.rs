@@ -5,7 +5,7 @@ use super::engine::Engine;
 use super::plan::Receiver;
 use crate::context::Stream;
 use crate::control::watch::{POINTS_AT_ONCE, Watch};
-use crate::importance::{Copies, Looked, OpeningView, OpeningViews, Outlook, Survey};
+use crate::importance::{Copies, Looked, LookingPlace, OpeningView, OpeningViews, Survey};
 use crate::sensors::Target;
 use crate::spectrum::Spectrum;
 
@@ -42,8 +42,8 @@ fn look_from_targets<S: Spectrum>(
     let look = |&(number, receiver): &(u64, &Receiver)| {
         let &Receiver { position, n, .. } = receiver;
         let from = context.world.ray_origin_of_sensor(position, n);
-        let outlook = |_| Outlook { from, n };
-        OpeningView::look(context, Stream::Survey(5), number, outlook, looks)
+        let place_of = |_| LookingPlace { from, n };
+        OpeningView::look(context, Stream::Survey(5), number, place_of, looks)
     };
     let views = watch.map_in_parts(&numbered, POINTS_AT_ONCE, look)?;
     let mut all = 0;

@@ -6,7 +6,7 @@ use super::{EyePath, EyePaths, EyeWeights, LastVertex, MirroredFrom, Passed};
 use crate::context::Context;
 use crate::cutoff::Gain;
 use crate::estimator::bidirectional::engine::Engine;
-use crate::estimator::bidirectional::leading::{Onward, WayOut};
+use crate::estimator::bidirectional::leading::{OnwardSample, WayOut};
 use crate::estimator::bidirectional::light_subpath::LightSubpaths;
 use crate::estimator::bidirectional::plan::{Receiver, favour};
 use crate::lights::DrawnDirection;
@@ -127,7 +127,7 @@ impl<'p, S: Spectrum> EyePath<'p, S> {
         self.sample_direct_images(engine, alone, work);
         self.sample_direct_at_start(engine, vertex, way_out, work);
         let onward = way_out.sample_onward(engine, surface, at.front, &mut self.sampler);
-        let Some(Onward { next, led }) = onward else { return false };
+        let Some(OnwardSample { next, led }) = onward else { return false };
         let pdf_sr = led.survival_pdf_sr(bsdf, wo, next.wi, favour(0));
         self.leave(context, vertex, way_out, [pdf_sr, next.wi.z.abs()]);
         self.go_on(engine, at, &frame, &next, led.favour(favour(0)))
