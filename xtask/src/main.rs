@@ -20,6 +20,7 @@ mod gauntlet;
 mod generated;
 mod octant;
 mod office;
+mod package;
 mod prediction;
 mod python;
 mod reference;
@@ -44,7 +45,7 @@ cargo xtask test clippy    lints, warnings denied
 cargo xtask test fuzz      the fuzz targets compile, lints included
 cargo xtask test tests     all tests of the workspace
 cargo xtask test docs      documentation, warnings denied
-cargo xtask test package   the crates to publish build from their packages
+cargo xtask test package   the crates to publish compile from their packages
 cargo xtask test deny      licences, doubles and sources of dependencies
 cargo xtask test release   what a release is made of: archive, notes, order of crates
 cargo xtask test python    the Python package: wheel, tests, types, documentation

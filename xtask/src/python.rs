@@ -35,18 +35,18 @@ pub(crate) fn check(root: &Path) -> Result<(), Failure> {
     let environment = Environment::fresh(root, python)?;
     let wheel = environment.build_wheel()?;
     environment.install(&["--no-deps", &wheel.to_string_lossy()])?;
-    for [name, module, arguments] in CHECKS {
-        println!("xtask: {name}");
-        let arguments: Vec<&str> = arguments.split_whitespace().collect();
-        environment.run(module, &arguments)?;
-    }
-    Ok(())
+    // Neither keeps two processors busy.
+    std::thread::scope(|scope| {
+        let beside =
+            scope.spawn(|| CHECKS.iter().try_for_each(|check| environment.check_silently(check)));
+        let tests = environment.run("pytest", &["-q", "--no-header", "tests"]);
+        tests.and(beside.join().expect("no check panics"))
+    })
 }
 
-/// What is checked, in this order: its name, the module of Python and its arguments, in the
-/// package's folder.
-const CHECKS: [[&str; 3]; 5] = [
-    ["pytest", "pytest", "-q --no-header tests"],
+/// What is checked beside the tests, in this order: its name, the module of Python and its
+/// arguments, in the package's folder.
+const CHECKS: [[&str; 3]; 4] = [
     ["stubs against the module", "mypy.stubtest", "quasilux._native --ignore-disjoint-bases"],
     ["types", "pyright", "--pythonpath {python} python tests"],
     ["site of the program", "mkdocs", "build -f ../../mkdocs.yml --strict -d {folder}/site"],
@@ -97,8 +97,24 @@ impl Environment {
         paths.find(is_wheel).ok_or_else(|| format!("no wheel in {out}"))
     }
 
+    /// Runs a check, and prints all that it says at its end.
+    fn check_silently(&self, [name, module, arguments]: &[&str; 3]) -> Result<(), Failure> {
+        let arguments: Vec<&str> = arguments.split_whitespace().collect();
+        let mut command = self.command(module, &arguments);
+        let output =
+            command.output().map_err(|error| format!("{command:?} does not start: {error}"))?;
+        let [said, told] = [&output.stdout, &output.stderr].map(|it| String::from_utf8_lossy(it));
+        println!("xtask: {name}\n{said}{told}");
+        let failed = || Err(format!("{command:?} ended with {}", output.status));
+        if output.status.success() { Ok(()) } else { failed() }
+    }
+
     /// Runs a module of Python in the package's folder.
     fn run(&self, module: &str, arguments: &[&str]) -> Result<(), Failure> {
+        run(&mut self.command(module, arguments))
+    }
+
+    fn command(&self, module: &str, arguments: &[&str]) -> Command {
         let python = self.python();
         let [own, folder] = [&python, &self.folder].map(|path| path.to_string_lossy());
         let fill = |word: &&str| word.replace("{python}", &own).replace("{folder}", &folder);
@@ -108,7 +124,7 @@ impl Environment {
         command.env_remove("PYTHONPATH").env("PYTHONDONTWRITEBYTECODE", "1");
         // What the theme says of another program.
         command.env("NO_MKDOCS_2_WARNING", "1");
-        run(&mut command)
+        command
     }
 }
 

@@ -81,7 +81,7 @@ fn section(changelog: &str, version: &str) -> Option<String> {
 }
 
 /// The version of all crates.
-fn version(root: &Path) -> Result<String, Failure> {
+pub(crate) fn version(root: &Path) -> Result<String, Failure> {
     let path = root.join("Cargo.toml");
     let text = fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
     let manifest: toml::Table = text.parse().map_err(|e| format!("{}: {e}", path.display()))?;

@@ -1,8 +1,7 @@
 //! The steps of the test command, in the order in which they are cheapest to fail.
 
-use crate::{documents, examples, gauntlet, python, release, same_bits};
+use crate::{documents, examples, gauntlet, package, python, release, same_bits};
 use std::collections::BTreeSet;
-use std::path::PathBuf;
 use std::process::Command;
 use std::time::{Duration, Instant};
 use xtask::workspace::{Failure, root as workspace_root};
@@ -26,7 +25,7 @@ const STEPS: [Step; 11] = [
         name: "docs",
         run: || cargo(&["doc", "--workspace", "--no-deps"], &[("RUSTDOCFLAGS", "-D warnings")]),
     },
-    Step { name: "package", run: package_crates },
+    Step { name: "package", run: || package::check(&workspace_root()) },
     Step { name: "release", run: || release::rehearse(&workspace_root()) },
     Step { name: "python", run: || python::check(&workspace_root()) },
     Step { name: "examples", run: || examples::run_all(&workspace_root()) },
@@ -37,11 +36,12 @@ const STEPS: [Step; 11] = [
 const DOCUMENTS: Step = Step { name: "documents", run: || documents::check(&workspace_root()) };
 
 /// The other step that [`run_all`] leaves out: all tests, in the variants that take long and find
-/// smaller errors, and the program built twice.
+/// smaller errors, each crate built from its package, and the program built twice.
 const DEEP: Step = Step {
     name: "deep",
     run: || {
         run_tests(&[("QUASILUX_DEEP", "1")])?;
+        package::build(&workspace_root())?;
         same_bits::check(&workspace_root())
     },
 };
@@ -115,24 +115,6 @@ fn check_dependencies() -> Result<(), Failure> {
         return Ok(());
     }
     cargo(&["deny", "--offline", "check", "licenses", "bans", "sources"], &[])
-}
-
-/// Packs the crates that may be published and builds each from its package, without the registry,
-/// the command line among them: what `cargo install` would do.
-fn package_crates() -> Result<(), Failure> {
-    let packages = xtask::packages::of_workspace(&workspace_root())?;
-    xtask::packages::remove_unpacked(&packages, &cargo_home()?)
-        .map_err(|error| format!("copies of an earlier run cannot be removed: {error}"))?;
-    let mut arguments = vec!["package", "--quiet", "--offline", "--allow-dirty"];
-    arguments.extend(packages.iter().flat_map(|package| ["--package", &package.name]));
-    cargo(&arguments, &[("CARGO_PROFILE_DEV_DEBUG", "0")])
-}
-
-/// The folder where cargo keeps what it has fetched.
-fn cargo_home() -> Result<PathBuf, Failure> {
-    let named = std::env::var_os("CARGO_HOME").map(PathBuf::from);
-    let in_home = || std::env::home_dir().map(|home| home.join(".cargo"));
-    named.or_else(in_home).ok_or_else(|| "neither CARGO_HOME nor HOME is set".into())
 }
 
 /// Runs cargo in the workspace with further environment variables.
