@@ -3,7 +3,7 @@
 use crate::room::{Case, body, shell};
 use glam::{DMat3, DVec3};
 use quasilux_inspection::Check;
-use quasilux_stats::SplitMix64;
+use quasilux_stats::{SplitMix64, deep};
 
 struct RandomRoom {
     case: Case,
@@ -57,9 +57,15 @@ fn room(seed: u64) -> RandomRoom {
     RandomRoom { case, lamps, height_m: size.z }
 }
 
+/// Number of them: what is wrong in one of 330 is found in 19 of 20 choices of the seeds, in the
+/// deep variant in one of 1300.
+fn rooms() -> u64 {
+    if deep() { 4000 } else { 1000 }
+}
+
 #[test]
 fn random_rooms_are_right() {
-    for seed in 0..4000 {
+    for seed in 0..rooms() {
         let findings = room(seed).case.findings();
         assert!(findings.is_empty(), "room {seed}: {}", findings[0]);
     }
@@ -68,7 +74,7 @@ fn random_rooms_are_right() {
 /// In every room the lamp that hangs above the ceiling is named, and none else.
 #[test]
 fn a_lamp_above_the_ceiling_is_told_in_any_room() {
-    for seed in 0..4000 {
+    for seed in 0..rooms() {
         let RandomRoom { mut case, lamps, height_m } = room(seed);
         if lamps == 1 {
             // Without a light in the room the project is refused.

@@ -10,6 +10,7 @@ use quasilux_scene::{Bsdf, Environment, Opening, Rgb, Scene, Sun};
 use quasilux_sky::{
     Distribution, Irradiance, Perez, SUN_RADIUS_DEG, Sky, SkyLevel, SkyPoint, WeatherSky,
 };
+use quasilux_stats::deep;
 use quasilux_transport::interval::t_quantile_for;
 use quasilux_transport::settings::Settings;
 use quasilux_transport::{
@@ -210,9 +211,11 @@ fn hours_in_black_rooms_are_integrals() {
 /// Where points stop as soon as they are known, intervals hold the truth as often as they promise,
 /// those of a single look seldomer, and values are biased by little of the tolerance.
 ///
-/// 4 replicates know their spread badly, so that the cost of looks shows. 24 runs of 40 points in a
-/// black room, an hour each, seeds from 0 on: were they independent, one standard error of 95 %
-/// would be 0.7 %, and below 92.5 % would be a chance of 2 in 10 000. Single looks cover 85 %.
+/// 4 replicates know their spread badly, so that the cost of looks shows. 10 runs of 40 points in a
+/// black room, 24 in the deep variant, an hour each, seeds from 0 on: were they independent, one
+/// standard error of 95 % would be 1.1 % or 0.7 %, and below 91.2 % or 92.5 % would be a chance of
+/// 2 in 10 000. Single looks cover 85 %; coverage of 89.4 % is found in 9 of 10 choices of the
+/// seeds, 91.4 % in the deep variant.
 #[test]
 fn intervals_of_hours_pay_for_their_looks() {
     const REL_TOL: f64 = 0.015;
@@ -232,8 +235,9 @@ fn intervals_of_hours_pay_for_their_looks() {
     let truth_lx = places.iter().map(|&(place, n)| through(&window, &sky, |_| 1.0, [place, n]));
     let truth_lx: Vec<f64> = truth_lx.collect();
     let (mut covered, mut by_one_look, mut early, mut bias) = (0.0, 0.0, 0.0, 0.0);
-    let one = 1.0 / (24.0 * 40.0);
-    for seed in 0..24 {
+    let (seeds, least) = if deep() { (24, 0.925) } else { (10, 0.912) };
+    let one = 1.0 / (seeds as f64 * 40.0);
+    for seed in 0..seeds {
         let (sequence, replicates) = (Sequence::Independent, 4);
         let settings =
             Settings { rel_tol: REL_TOL, replicates, sequence, seed, ..Settings::default() };
@@ -250,13 +254,14 @@ fn intervals_of_hours_pay_for_their_looks() {
         }
     }
     assert!(early > 0.5, "{early} stopped, and not at their first look");
-    assert!(covered > 0.925, "{covered}");
-    assert!(by_one_look < 0.925, "the test has lost its power: {by_one_look}");
+    assert!(covered > least, "{covered}");
+    assert!(by_one_look < least, "the test has lost its power: {by_one_look}");
     assert!(bias.abs() < 0.05, "{bias}");
 }
 
-/// In rooms that reflect hours are what runs over them alone say; in one most of the window is no
-/// opening that anyone named.
+/// In rooms that reflect hours are what runs over them alone say, both to 3 %, in the deep variant
+/// to 1.5 %: a quarter of that is found in the mean of all. In one most of the window is no opening
+/// that anyone named.
 #[test]
 fn hours_are_those_of_runs_of_their_own() {
     let mut numbers = Numbers(5);
@@ -270,7 +275,8 @@ fn hours_are_those_of_runs_of_their_own() {
             environment.openings = vec![Opening { u, v, ..window }];
         }
         scene.environment = Some(environment.clone());
-        let settings = Settings { rel_tol: 0.015, seed, ..Settings::default() };
+        let rel_tol = if deep() { 0.015 } else { 0.03 };
+        let settings = Settings { rel_tol, seed, ..Settings::default() };
         let points = year(&scene, &hours, &settings);
         for (number, hour) in hours.iter().enumerate() {
             scene.environment = Some(moment(&environment, hour));

@@ -2,13 +2,15 @@
 //!
 //! Where a reference is given, a value may be off by 1.5 half-widths of its 95 % interval and the
 //! stated share: a right program fails once in some 200 such comparisons at most (16 replicates),
-//! and seeds are fixed. Half-widths are below 0.1 %, so an error of 0.3 % is found nearly always.
+//! and seeds are fixed. Half-widths are below 0.2 %, so an error of 0.5 % is found nearly always;
+//! in the deep variant below 0.05 %, and an error of 0.15 % is.
 
 use crate::scenes::{diffuse, points, room};
 use glam::{DMat3, DVec3};
 use quasilux_photometry::{Axis, LuminousShape, Solid, read_ies};
 use quasilux_scene::light::{Luminaire, Placement};
 use quasilux_scene::{Grid, Light, Quantity, Scene, Sensor, SensorShape};
+use quasilux_stats::deep;
 use quasilux_transport::{Caveat, Estimates, EstimatorKind, Settings, simulate};
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
@@ -85,7 +87,8 @@ fn in_the_dark(luminaire: Luminaire, sensors: &[(DVec3, DVec3)]) -> Scene {
 const CENTRE: DVec3 = DVec3::splat(50.0);
 
 fn assert_direct(scene: &Scene, wanted_lx: &[f64], share: f64, what: &str) {
-    let settings = Settings { rel_tol: 5e-4, max_bounces: Some(0), ..Settings::default() };
+    let rel_tol = if deep() { 5e-4 } else { 2e-3 };
+    let settings = Settings { rel_tol, max_bounces: Some(0), ..Settings::default() };
     let estimates = simulate(scene, &settings, &mut ());
     assert!(estimates.tolerance_reached && estimates.invalid_contributions == 0, "{what}");
     for (i, (found, wanted)) in estimates.point_intervals(0).iter().zip(wanted_lx).enumerate() {

@@ -36,6 +36,7 @@ fn a_hall_of_perfect_mirrors_ends_with_a_warning() {
     scene.sensors.push(points("p", &[(DVec3::new(0.5, 0.5, 0.1), DVec3::Z)]));
     let settings = Settings {
         estimator: EstimatorKind::Path,
+        replicates: 2,
         max_samples: Some(2),
         rel_tol: 0.05,
         ..Settings::default()

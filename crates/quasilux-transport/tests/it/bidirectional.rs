@@ -8,6 +8,7 @@ use crate::scenes::{all_walls_emit, diffuse, level_grid, mirror, point_light, po
 use glam::DVec3;
 use quasilux_scene::light::AreaLight;
 use quasilux_scene::{Grid, Light, Material, Quantity, Scene, Sensor, SensorShape};
+use quasilux_stats::deep;
 use quasilux_transport::{Estimates, EstimatorKind, Settings, simulate};
 use std::f64::consts::PI;
 
@@ -21,8 +22,11 @@ fn run(scene: &Scene, samples: u64) -> Estimates {
 }
 
 /// Both runs agree at all points of the first sensor within what their intervals allow, and a
-/// little: an error of 2 % is found.
+/// little: with a quarter of these samples an error of 4 % is found, with all of them in the deep
+/// variant one of 2 %.
 fn agree(name: &str, scene: &Scene, [own, other]: [u64; 2], by: EstimatorKind) {
+    let (share, widest) = if deep() { (1, 0.06) } else { (4, 0.12) };
+    let (own, other) = (own / share, other / share);
     let found = run(scene, own).point_intervals(0);
     let wanted = simulate(scene, &settings(by, other), &mut ()).point_intervals(0);
     for (point, (found, wanted)) in found.iter().zip(&wanted).enumerate() {
@@ -31,7 +35,7 @@ fn agree(name: &str, scene: &Scene, [own, other]: [u64; 2], by: EstimatorKind) {
             + 0.002 * wanted.value;
         let says = format!("{name}, point {point}: {found:?}, not {wanted:?}");
         assert!((found.value - wanted.value).abs() <= allowed, "{says}");
-        assert!(width(found.half_width) < 0.06 * found.value, "{says}");
+        assert!(width(found.half_width) < widest * found.value, "{says}");
     }
 }
 
@@ -181,11 +185,14 @@ fn white_room_with_a_hole(reflectance: f64, hole_m: f64) -> (Scene, f64) {
 
 /// Light that no photon brought in is within the bound: white rooms lit through holes that some
 /// thousand photons pass by, or enter a few times. The sum of both numbers may be below the truth
-/// once in twenty; seven or more of 54 happen once in sixty.
+/// once in twenty; five or more of 27 happen once in eighty, and in the deep variant seven or more
+/// of 54 once in sixty. Bounds that fail in 31 % of the rooms are found in 19 of 20 choices of the
+/// seeds, 21 % there.
 #[test]
 fn what_came_through_no_hole_is_within_the_bound() {
+    let (rooms, most) = if deep() { (54_u32, 7) } else { (27, 5) };
     let mut below = 0;
-    for number in 0..54_u32 {
+    for number in 0..rooms {
         let reflectance = [0.5, 0.8, 0.95][number as usize % 3];
         let hole_m = [0.003, 0.009, 0.025][(number / 3) as usize % 3];
         let (scene, mean_lx) = white_room_with_a_hole(reflectance, hole_m);
@@ -202,7 +209,7 @@ fn what_came_through_no_hole_is_within_the_bound() {
             .sum();
         below += u32::from(most_lx / 6.0 < 0.99 * mean_lx);
     }
-    assert!(below < 7, "{below} of 54");
+    assert!(below < most, "{below} of {rooms}");
 }
 
 /// With many photons the same rooms have their closed form.

@@ -7,19 +7,27 @@ use crate::scenes::{
 use glam::DVec3;
 use quasilux_sampling::Sequence;
 use quasilux_scene::{Bsdf, Material, Scene};
+use quasilux_stats::deep;
 use quasilux_transport::{CertifiedInterval, Estimates, IntervalKind, Settings, simulate};
 use std::f64::consts::PI;
 
 /// Many replicates with few indices each: their number is what the lower limit hangs on.
 const REPLICATES: u32 = 64;
 const INDICES: u64 = 8;
-const SEEDS: u64 = 100;
+
+/// Seeds, and the intervals that may miss.
+const FEW: (u64, usize) = (40, 4);
+const MANY: (u64, usize) = (100, 9);
 
 fn settings(seed: u64, sequence: Sequence) -> Settings {
     let (rel_tol, max_samples) = (0.0, Some(INDICES));
     let interval = IntervalKind::Certified;
     let replicates = REPLICATES;
     Settings { rel_tol, max_samples, replicates, seed, sequence, interval, ..Settings::default() }
+}
+
+fn seeds() -> (u64, usize) {
+    if deep() { MANY } else { FEW }
 }
 
 /// The first point and the average, over all seeds.
@@ -29,13 +37,15 @@ fn all_seeds(scene: &Scene, sequence: Sequence) -> Vec<[CertifiedInterval; 2]> {
         let points = estimates.certified_points(0).unwrap();
         [points[0], estimates.certified_average(0).unwrap()]
     };
-    (0..SEEDS).map(of_seed).collect()
+    (0..seeds().0).map(of_seed).collect()
 }
 
-/// Of 100 intervals of 95 %, 5 may miss; at most 9 do, two binomial deviations more. The lower
-/// limit stays above `share` of the truth, so that it says something: one that claimed 10 % more
-/// than it knows would pass the truth in most seeds.
+/// Of 40 intervals of 95 %, 2 may miss; at most 4 do, or 9 of 100 in the deep variant, two binomial
+/// deviations more: intervals that miss 22 % are found in 19 of 20 choices of the seeds, 16 %
+/// there. The lower limit stays above `share` of the truth, so that it says something: one that
+/// claimed 10 % more than it knows would pass the truth in most seeds.
 fn assert_covers(scene: &Scene, truth_lx: [f64; 2], share: f64) {
+    let (seeds, most) = seeds();
     for sequence in [Sequence::Sobol, Sequence::Independent] {
         let intervals = all_seeds(scene, sequence);
         for (number, truth_lx) in truth_lx.into_iter().enumerate() {
@@ -43,13 +53,13 @@ fn assert_covers(scene: &Scene, truth_lx: [f64; 2], share: f64) {
             let is_missed =
                 |it: &CertifiedInterval| it.lower_lx > truth_lx || it.upper_lx < truth_lx;
             let missed = own().filter(is_missed).count();
-            assert!(missed <= 9, "{} {number}: {missed} missed", sequence.name());
+            assert!(missed <= most, "{} {number}: {missed} missed", sequence.name());
             let lowest_lx = own().map(|it| it.lower_lx).fold(f64::INFINITY, f64::min);
             assert!(lowest_lx > share * truth_lx, "{}: {lowest_lx}", sequence.name());
             let is_known = own().all(|it| it.upper_lx.is_finite());
             assert_eq!(is_known, sequence == Sequence::Independent);
             let higher = own().filter(|it| 1.2 * it.lower_lx > truth_lx).count();
-            assert!(higher > 50, "{}: {higher} are near", sequence.name());
+            assert!(higher > seeds as usize / 2, "{}: {higher} are near", sequence.name());
         }
     }
 }

@@ -6,6 +6,7 @@ use crate::measured_odd::grid_below;
 use crate::scenes::{diffuse, diffuse_cube, point_light, room, wall_grid};
 use glam::DVec3;
 use quasilux_scene::{FileKind, Files, Quantity, Scene, SensorShape, load};
+use quasilux_stats::deep;
 use quasilux_transport::trial::{PhotonOrder, Traced, try_photons};
 use quasilux_transport::{Estimates, EstimatorKind, Interval, Settings, Switch, simulate};
 use std::path::{Path, PathBuf};
@@ -100,13 +101,14 @@ fn guided_photons_know_the_dark_end_better() {
 
 /// Paths connected to light subpaths know every cell. Each is compared with the independent
 /// tracer: 30 differences at twice the joint 95 % half-widths, about four standard errors; an error
-/// of 30 % would be found in any cell. What is found spans four orders of magnitude, and so does
-/// the reference, by three of its standard errors at either end.
+/// of 50 % would be found in any cell, in the deep variant one of 30 %. What is found spans four
+/// orders of magnitude, and so does the reference, by three of its standard errors at either end.
 #[test]
 fn connected_paths_know_all_of_four_orders_of_magnitude() {
+    let (samples, widest) = if deep() { (1 << 13, 0.15) } else { (1 << 11, 0.25) };
     let settings = Settings {
         estimator: EstimatorKind::Bidirectional,
-        max_samples: Some(1 << 13),
+        max_samples: Some(samples),
         ..settings(Switch::Auto)
     };
     let estimates = simulate(&corridor(Quantity::Mean), &settings, &mut ());
@@ -116,7 +118,7 @@ fn connected_paths_know_all_of_four_orders_of_magnitude() {
     for (cell, (found, wanted)) in found.iter().zip(&reference).enumerate() {
         let half_width = found.half_width.unwrap_or(f64::INFINITY);
         let joint = libm::hypot(half_width, 2.0 * wanted.standard_error_lx);
-        assert!(joint < 0.15 * wanted.value_lx, "{cell}: {found:?}");
+        assert!(joint < widest * wanted.value_lx, "{cell}: {found:?}");
         let off = (found.value - wanted.value_lx).abs();
         assert!(off <= 2.0 * joint, "{cell}: {found:?}, wanted {wanted:?}");
     }

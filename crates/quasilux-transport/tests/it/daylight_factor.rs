@@ -68,11 +68,12 @@ fn assert_near(found: Interval, expected: [f64; 2], scale_lx: f64, about: &str) 
     assert!(is_known, "{about}: {found:?} says too little");
 }
 
-/// In bright rooms what comes straight from the sky and what comes straight from the ground.
+/// In bright rooms what comes straight from the sky and what comes straight from the ground. Four
+/// rooms, eight in the deep variant, in which an error of 8 % is found at any point.
 #[test]
 fn sky_and_ground_through_windows_are_integrals() {
     let mut numbers = Numbers(11);
-    for number in 0..8 {
+    for number in 0..if deep() { 8 } else { 4 } {
         let Room { mut scene, window } = room_with_window(&mut numbers, 0.6);
         let mut environment = outside(&mut numbers);
         fill(&mut scene, &mut environment, window, number % 2);
@@ -94,12 +95,12 @@ fn sky_and_ground_through_windows_are_integrals() {
 }
 
 /// In black rooms with a facade opposite, by openings of all kinds: both components together are
-/// all light, and the first is what is left when all else is black. Six rooms, twelve in the deep
-/// variant; in both, half-widths are at most 3 % of the value, or of 20 lx.
+/// all light, and the first is what is left when all else is black. Three rooms, one of each kind,
+/// twelve in the deep variant; in both, half-widths are at most 3 % of the value, or of 20 lx.
 #[test]
 fn facades_are_externally_reflected() {
     let mut numbers = Numbers::from_seed(23);
-    let rooms = if deep() { 12 } else { 6 };
+    let rooms = if deep() { 12 } else { 3 };
     let mut compared = 0;
     for number in 0..rooms {
         let Room { mut scene, window } = room_with_window(&mut numbers, 0.0);

@@ -117,14 +117,16 @@ impl Count {
 }
 
 /// Runs of 2^10 samples at most, 2^14 in the deep variant: the fewer, the rarer are the paths that
-/// meet the facade, but the wider the intervals. By 160 of 95 % either finds a coverage of 86 % in
-/// 95 of 100 cases.
+/// meet the facade, but the wider the intervals. By 80 of 95 % a coverage of 81 % is found in 95 of
+/// 100 cases, by 160 in the deep variant one of 86 %.
 #[test]
 fn no_interval_is_without_what_a_facade_reflects() {
     let max_samples = Some(if deep() { 1 << 14 } else { 1 << 10 });
+    let (seeds, most) = if deep() { (40, 16) } else { (20, 10) };
     let estimators = [EstimatorKind::Path, EstimatorKind::Auto];
     let mut counts = [(); 2].map(|()| Count::default());
-    for seed in 100..140 {
+    for seed in 0..seeds {
+        let seed = 100 + seed;
         let mut numbers = Numbers::from_seed(seed);
         let view = view(&mut numbers);
         let places = view.scene.sensors[0].points();
@@ -147,10 +149,11 @@ fn no_interval_is_without_what_a_facade_reflects() {
             }
         }
     }
-    // Of 160 intervals of 95 %, 8 miss on average, and 16 once in two hundred.
+    // Of 80 intervals of 95 %, 4 miss on average, and 10 once in two hundred; of 160, 8 and 16.
     for count in counts {
         let Count { known, missed, missed_by_far } = count;
-        assert!(known > 150 && missed < 16 && missed_by_far < 2, "{count:?}");
+        let least = 15 * seeds as u32 / 4;
+        assert!(known > least && missed < most && missed_by_far < 2, "{count:?}");
     }
 }
 

@@ -5,9 +5,12 @@ use glam::DVec3;
 use quasilux_scene::bsdf::Diffuse;
 use quasilux_scene::rgb::LUMINANCE_WEIGHTS;
 use quasilux_scene::{Bsdf, Grid, Quantity, Rgb, Sensor, SensorShape};
+use quasilux_stats::deep;
 use quasilux_transport::{EstimatorKind, Settings, Switch, UnseenTolerance, simulate};
 use std::f64::consts::PI;
 
+/// Known to 2 %, so that an error of 5 % is found nearly always; with a reflectance of 0.99 to 6 %
+/// and one of 15 %, but for the deep variant.
 #[test]
 fn illuminance_is_pi_l_over_one_minus_r() {
     for reflectance in [0.0, 0.5, 0.9, 0.99] {
@@ -24,7 +27,8 @@ fn illuminance_is_pi_l_over_one_minus_r() {
                 ],
             ));
             let unseen_tol = UnseenTolerance::Off;
-            let settings = Settings { estimator, rel_tol: 0.02, unseen_tol, ..Settings::default() };
+            let rel_tol = if deep() || reflectance < 0.95 { 0.02 } else { 0.06 };
+            let settings = Settings { estimator, rel_tol, unseen_tol, ..Settings::default() };
             let estimates = simulate(&scene, &settings, &mut ());
             assert!(estimates.tolerance_reached);
             let wanted = PI * 100.0 / (1.0 - reflectance);
@@ -40,7 +44,9 @@ fn illuminance_is_pi_l_over_one_minus_r() {
 
 /// Where one sensor stands at an end of a long room, what leaves there matters more than elsewhere,
 /// and light subpaths go on in copies. Errors are in standard errors of a point: their mean over
-/// three points and ten seeds has one of 0.32 if the points move together.
+/// three points and five seeds has one of 0.45 if the points move together, and ten in the deep
+/// variant one of 0.32. A bias of 2 of them, 1.5 there, is found nearly always; those of the deep
+/// variant are half as large.
 #[test]
 fn copies_of_light_subpaths_bias_nothing() {
     let (reflectance, luminance_cd_m2) = (0.6, 100.0);
@@ -55,7 +61,7 @@ fn copies_of_light_subpaths_bias_nothing() {
             importance,
             seed,
             rel_tol: 0.0,
-            max_samples: Some(64),
+            max_samples: Some(if deep() { 64 } else { 16 }),
             unseen_tol: UnseenTolerance::Off,
             ..Settings::default()
         };
@@ -69,9 +75,10 @@ fn copies_of_light_subpaths_bias_nothing() {
             intervals.iter().map(|it| (it.value - wanted_lx) * 2.13 / it.half_width.unwrap());
         errors.sum::<f64>() / intervals.len() as f64
     };
-    let errors: Vec<f64> = (0..10).map(off).collect();
+    let (seeds, allowed) = if deep() { (10, 1.0) } else { (5, 1.4) };
+    let errors: Vec<f64> = (0..seeds).map(off).collect();
     let mean = errors.iter().sum::<f64>() / errors.len() as f64;
-    assert!(mean.abs() < 1.0, "{mean}: {errors:?}");
+    assert!(mean.abs() < allowed, "{mean}: {errors:?}");
 }
 
 /// In a room of one saturated colour the light of each channel c is its own furnace: with white

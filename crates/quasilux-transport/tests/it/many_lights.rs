@@ -6,7 +6,7 @@ use crate::spotlight::spotlight;
 use glam::{DMat3, DVec3};
 use quasilux_photometry::{LuminousShape, Solid};
 use quasilux_scene::{Light, Scene};
-use quasilux_stats::SplitMix64;
+use quasilux_stats::{SplitMix64, deep};
 use quasilux_transport::{EstimatorKind, Interval, Settings, simulate};
 
 /// Fewer than are drawn from.
@@ -55,10 +55,13 @@ fn intervals(scene: &Scene, seed: u64) -> Vec<Interval> {
     simulate(scene, &settings, &mut ()).point_intervals(0)
 }
 
+/// Two rooms, six in the deep variant: in each, half-widths of 5 % at most, so that an error of 11
+/// % at any place is found.
 #[test]
 fn many_lights_give_what_they_give_by_the_few() {
     let (mut far, mut compared) = (0, 0);
-    for seed in 0..6 {
+    let rooms = if deep() { 6 } else { 2 };
+    for seed in 0..rooms {
         let whole = hall(&mut SplitMix64::new(1000 * seed), seed % 2 == 1);
         let together = intervals(&whole, seed);
         let parts: Vec<Vec<Interval>> = whole
@@ -80,6 +83,6 @@ fn many_lights_give_what_they_give_by_the_few() {
             far += usize::from(off.abs() > 1.0);
         }
     }
-    assert!(compared >= 10, "only {compared} places have intervals");
+    assert!(compared >= if deep() { 10 } else { 4 }, "only {compared} places have intervals");
     assert!(far <= compared / 5, "{far} of {compared} differ by more than a half-width");
 }

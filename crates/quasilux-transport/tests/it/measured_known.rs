@@ -13,9 +13,10 @@ use quasilux_bsdf::{Distribution, GriddedTable, ScatteringMode, Side, TensorTree
 use quasilux_sampling::warp::sample_disk;
 use quasilux_scene::bsdf::Conductor;
 use quasilux_scene::{Bsdf, Rgb, Scene};
-use quasilux_stats::student_t_quantile;
+use quasilux_stats::{deep, student_t_quantile};
 use quasilux_transport::{EstimatorKind, Scattering};
 use std::f64::consts::{FRAC_1_PI, FRAC_PI_2};
+use std::sync::OnceLock;
 
 /// Directions of the quadratures, this many a side of the disk.
 const INCIDENT: u32 = 9;
@@ -96,17 +97,31 @@ fn of_tables(table: &Distribution) -> Bsdf {
     measured([(Side::Front, ScatteringMode::Reflection, table.clone())])
 }
 
+/// A table with what it says of itself.
+struct Table {
+    distribution: Distribution,
+    stated: f64,
+}
+
 /// A metal and tables of it.
 struct Sheets {
     alpha: f64,
-    tables: Vec<Distribution>,
+    tables: Vec<Table>,
 }
 
-fn sheets() -> [Sheets; 2] {
-    [
-        Sheets { alpha: 0.35, tables: vec![tree(0.35, 6), lobes(0.35, 24)] },
-        Sheets { alpha: 0.03, tables: vec![lobes(0.03, 36)] },
-    ]
+/// Made once for all tests.
+fn sheets() -> &'static [Sheets; 2] {
+    static SHEETS: OnceLock<[Sheets; 2]> = OnceLock::new();
+    SHEETS.get_or_init(|| {
+        let with = |alpha: f64, tables: Vec<Distribution>| {
+            let table = |distribution| {
+                let stated = stated_error(alpha, &distribution);
+                Table { distribution, stated }
+            };
+            Sheets { alpha, tables: tables.into_iter().map(table).collect() }
+        };
+        [with(0.35, vec![tree(0.35, 6), lobes(0.35, 24)]), with(0.03, vec![lobes(0.03, 36)])]
+    })
 }
 
 /// Boxes make errors of the first order in their width. Lobes are of the second in what lies
@@ -130,17 +145,18 @@ fn stated_errors_shrink_at_the_expected_order() {
 }
 
 /// The sheet's part of what the first sensor gets differs by no more than the table's error from
-/// that of the metal, beside the joint 99.9 % half-width of both.
+/// that of the metal, beside the joint 99.9 % half-width of both: 6 % at most, in the deep variant
+/// 3 %. Estimators agree to 3 %, and to 1 to 3 % there.
 #[test]
 fn tables_of_metals_light_a_room_as_the_metals_do() {
-    let of_paths = |bsdf: Bsdf| estimates(&divided(bsdf), EstimatorKind::Path, 1 << 13)[0];
+    let (paths, widest) = if deep() { (1 << 13, 0.03) } else { (1 << 11, 0.06) };
+    let of_paths = |bsdf: Bsdf| estimates(&divided(bsdf), EstimatorKind::Path, paths)[0];
     let without = of_paths(diffuse(0.0));
     for Sheets { alpha, tables } in sheets() {
-        let known = of_paths(metal(alpha));
+        let known = of_paths(metal(*alpha));
         let brought_lx = known.value_lx - without.value_lx;
-        for table in tables {
-            let stated = stated_error(alpha, &table);
-            let found = of_paths(of_tables(&table));
+        for Table { distribution: table, stated } in tables {
+            let found = of_paths(of_tables(table));
             let joint_lx = joint_half_width_lx(known, found);
             let off_lx = (known.value_lx - found.value_lx).abs();
             println!(
@@ -148,15 +164,18 @@ fn tables_of_metals_light_a_room_as_the_metals_do() {
                  {joint_lx:.3}, stated {stated:.4}",
                 table.kind()
             );
-            assert!(joint_lx < 0.03 * brought_lx, "{alpha}: {known:?}, {found:?}");
+            assert!(joint_lx < widest * brought_lx, "{alpha}: {known:?}, {found:?}");
             assert!(off_lx <= joint_lx + stated * brought_lx, "{alpha}: {known:?}, {found:?}");
-            let scene = divided(of_tables(&table));
-            assert_estimators_agree(table.kind(), &scene, 1 << 10, 0.06);
+            let scene = divided(of_tables(table));
+            // A few paths meet the panel in a sharp lobe so seldom that their mean is not normal.
+            let few = if deep() || *alpha < 0.1 { 1 << 10 } else { 1 << 8 };
+            assert_estimators_agree(table.kind(), &scene, few, 0.06);
         }
     }
 }
 
-/// All walls emit and are of the metal; light that comes after bounces is what counts.
+/// All walls emit and are of the metal; light that comes after bounces is what counts. Paths know
+/// it to 4 % and photons to 12 %, in the deep variant to 2 % and 6 %.
 #[test]
 fn tables_of_metals_light_a_furnace_as_the_metals_do() {
     let furnace = |bsdf: Bsdf| -> Scene {
@@ -168,15 +187,16 @@ fn tables_of_metals_light_a_furnace_as_the_metals_do() {
         ];
         scene
     };
+    let (share, wider) = if deep() { (1, 1.0) } else { (4, 2.0) };
     for (estimator, samples, widest) in
         [(EstimatorKind::Path, 1 << 10, 0.02), (EstimatorKind::Photon, 1 << 14, 0.06)]
     {
+        let (samples, widest) = (samples / share, wider * widest);
         let means = |bsdf: Bsdf| estimates(&furnace(bsdf), estimator, samples);
         for Sheets { alpha, tables } in sheets() {
-            let known = means(metal(alpha));
-            for table in tables {
-                let stated = stated_error(alpha, &table);
-                for (known, found) in known.iter().zip(means(of_tables(&table))) {
+            let known = means(metal(*alpha));
+            for Table { distribution: table, stated } in tables {
+                for (known, found) in known.iter().zip(means(of_tables(table))) {
                     let joint_lx = joint_half_width_lx(*known, found);
                     let off_lx = (known.value_lx - found.value_lx).abs();
                     println!(

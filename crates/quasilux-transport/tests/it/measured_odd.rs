@@ -1,7 +1,7 @@
 //! Measured sheets with odd tables: such that tell one way of light apart from the other, or give
 //! more than they get.
 
-use crate::cameras::{assert_luminances, camera, quadrature};
+use crate::cameras::{assert_luminances, camera, quadrature, share};
 use crate::images::{add_panel, empty};
 use crate::materials::tells_of_trapped_light;
 use crate::measured::{
@@ -120,7 +120,7 @@ fn a_measured_wall_in_a_picture() {
         lx * gloss.evaluate(in_table(wi), in_table(-w))[0]
     });
     scene.cameras.push(camera);
-    let settings = Settings { max_samples: Some(1024), ..Settings::default() };
+    let settings = Settings { max_samples: Some(share(1024)), ..Settings::default() };
     assert_luminances(&simulate(&scene, &settings, &mut ()), &wanted);
 }
 

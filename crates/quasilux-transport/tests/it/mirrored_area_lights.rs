@@ -7,6 +7,7 @@ use crate::scenes::{diffuse, mirror, points};
 use glam::DVec3;
 use quasilux_scene::light::AreaLight;
 use quasilux_scene::{Light, Scene};
+use quasilux_stats::deep;
 use quasilux_transport::{Estimates, EstimatorKind, Settings, simulate};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -96,11 +97,12 @@ pub(crate) fn add_light(scene: &mut Scene, Panel { corner, u, v }: Panel) {
 }
 
 /// By paths and by bidirectional paths: each point within 4 standard errors and the error of the
-/// reference, and known to 1 %.
+/// reference, and known to 1 %: an error of 6 % is found nearly always, in most points one of 1 %,
+/// in the deep variant half of that.
 pub(crate) fn assert_lx(scene: &Scene, seed: u64, expected_lx: &[f64]) {
     let settings = Settings {
         estimator: EstimatorKind::Path,
-        max_samples: Some(1 << 11),
+        max_samples: Some(if deep() { 1 << 11 } else { 1 << 9 }),
         rel_tol: 0.0,
         seed,
         ..Settings::default()

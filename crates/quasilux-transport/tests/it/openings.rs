@@ -5,6 +5,7 @@ use crate::images::add_panel;
 use crate::scenes::{diffuse, point_light, points, room};
 use glam::DVec3;
 use quasilux_scene::{Camera, Scene};
+use quasilux_stats::deep;
 use quasilux_transport::{Estimates, EstimatorKind, Pixel, Settings, simulate};
 use std::f64::consts::PI;
 
@@ -79,10 +80,11 @@ fn a_hidden_lamp_takes_no_choice_from_a_weak_one() {
 }
 
 /// Light of the bright room comes through a keyhole that one of 10^5 paths meets, and is as much as
-/// that of the night lamp: no run of a second knows it, and none says that it does. 32 points.
+/// that of the night lamp: no run of a second knows it, and none says that it does. 12 points, 32
+/// in the deep variant: bounds that are too small at one point in five are found in 14 of 15 cases.
 #[test]
 fn light_behind_a_keyhole_is_told_by_all_seeds() {
-    for seed in 0..8 {
+    for seed in 0..if deep() { 8 } else { 3 } {
         let estimates = run(&keyhole(), EstimatorKind::Auto, 512, seed);
         let unseen = estimates.sensors[0].unseen.as_ref().expect("a bound");
         let intervals = estimates.point_intervals(0);

@@ -6,6 +6,7 @@ use crate::scenes::{diffuse, diffuse_cube, mirror, point_light, room, wall_grid}
 use glam::DVec3;
 use quasilux_sampling::Sequence;
 use quasilux_scene::Scene;
+use quasilux_stats::deep;
 use quasilux_transport::trial::{PhotonOrder, Traced, try_photons};
 use quasilux_transport::{EstimatorKind, Settings};
 use std::ops::Range;
@@ -45,6 +46,8 @@ fn scenes() -> [Scene; 3] {
     [coloured_room_with_mirror(), cube, hall]
 }
 
+/// Each sequence in the first scene, which has all kinds of surfaces, and two in the others; in the
+/// deep variant each in each.
 #[test]
 fn waves_count_what_single_photons_count() {
     let sequences = [
@@ -55,7 +58,10 @@ fn waves_count_what_single_photons_count() {
         Sequence::Independent,
     ];
     for (number, scene) in scenes().iter().enumerate() {
-        for sequence in sequences {
+        for (place, sequence) in sequences.into_iter().enumerate() {
+            if !deep() && number > 0 && place % 2 == number % 2 {
+                continue;
+            }
             for (indices, max_bounces) in [(0..4096, None), (1000..5003, Some(1))] {
                 let settings = settings(sequence, max_bounces);
                 let alone = outcome(scene, &settings, PhotonOrder::OneByOne, indices.clone());

@@ -3,7 +3,8 @@
 //!
 //! Means of pictures must agree: their intervals, both half as wide again, overlap. That fails for
 //! right programs once in some 2000 cases. Of single pixels, whose intervals are widened by half as
-//! well, no more than 2 % may fail to.
+//! well, no more than 2 % may fail to. Pictures have 108 pixels, 432 in the deep variant: what is
+//! found in their means is half as large there.
 
 use crate::cameras::camera;
 use crate::dozen_scenes;
@@ -13,6 +14,7 @@ use crate::scenes::{diffuse, mirror, point_light, room};
 use glam::DVec3;
 use quasilux_scene::bsdf::Diffuse;
 use quasilux_scene::{Bsdf, Camera, Rgb, Scene};
+use quasilux_stats::deep;
 use quasilux_transport::{Estimates, EstimatorKind, Settings, simulate};
 
 /// A coloured room with a box that stands on its floor and touches a wall, and two lamps.
@@ -41,7 +43,8 @@ fn taken(scene: &Scene, settings: &Settings) -> Estimates {
 fn assert_twins_agree(name: &str, scene: &Scene, max_bounces: Option<u32>) {
     let mut scene = scene.clone();
     scene.sensors.clear();
-    scene.cameras = vec![eye([24, 18])];
+    let resolution = if deep() { [24, 18] } else { [12, 9] };
+    scene.cameras = vec![eye(resolution)];
     let [fast, slow] = [(EstimatorKind::Auto, 4, 3), (EstimatorKind::Path, 64, 4)].map(
         |(estimator, samples, seed)| {
             let max_samples = Some(samples);
@@ -63,7 +66,7 @@ fn assert_twins_agree(name: &str, scene: &Scene, max_bounces: Option<u32>) {
     });
     let strays = strays.count();
     println!("{name}, {max_bounces:?}: {a:?}, {b:?}, {strays} strays");
-    assert!(strays <= 24 * 18 / 50, "{name}: {strays} pixels differ");
+    assert!(strays <= fast.cameras[0].pixels.len() / 50, "{name}: {strays} pixels differ");
 }
 
 #[test]
@@ -118,8 +121,10 @@ fn sheets_are_lit_from_behind() {
     assert_twins_agree("sheet", &scene, None);
 }
 
-/// Seeds of the test of intervals.
-const SEEDS: u64 = 40;
+/// Number of seeds of the test of intervals.
+fn seeds() -> u64 {
+    if deep() { 40 } else { 16 }
+}
 
 /// Of the intervals of the pixels of small pictures, by this many paths each, the share that holds
 /// the mean over all choices of the seed; and of intervals 30 % narrower.
@@ -127,7 +132,7 @@ fn coverage(estimator: EstimatorKind, samples: u64) -> [f64; 2] {
     let mut scene = furnished();
     scene.cameras = vec![eye([18, 12])];
     let settings = Settings { estimator, max_samples: Some(samples), ..Settings::default() };
-    let share = coverage_of(&pictures(&scene, &settings, SEEDS));
+    let share = coverage_of(&pictures(&scene, &settings, seeds()));
     println!("{estimator:?}, {samples}: {share:?}");
     share
 }
@@ -137,30 +142,35 @@ fn pictures(scene: &Scene, settings: &Settings, seeds: u64) -> Vec<Estimates> {
     (0..seeds).map(|seed| taken(scene, &Settings { seed, ..settings.clone() })).collect()
 }
 
+/// Errors against a mean that they are part of are too small by the factor that is taken out.
 fn coverage_of(pictures: &[Estimates]) -> [f64; 2] {
+    let n = pictures.len() as f64;
+    let of_mean = (n / (n - 1.0)).sqrt();
     let pixels = |number: usize| pictures.iter().map(move |of| of.cameras[0].pixels[number]);
     let mut covered = [0_u32; 2];
     let count = pictures[0].cameras[0].pixels.len();
     for number in 0..count {
         let sum: f64 = pixels(number).map(|pixel| f64::from(pixel.luminance_cd_m2)).sum();
-        let mean = sum / pictures.len() as f64;
+        let mean = sum / n;
         for pixel in pixels(number) {
-            let error = (f64::from(pixel.luminance_cd_m2) - mean).abs();
+            let error = of_mean * (f64::from(pixel.luminance_cd_m2) - mean).abs();
             let half_width = f64::from(pixel.half_width_cd_m2.expect("an interval"));
             covered[0] += u32::from(error <= half_width);
             covered[1] += u32::from(error <= 0.7 * half_width);
         }
     }
-    covered.map(|covered| f64::from(covered) / (pictures.len() * count) as f64)
+    covered.map(|covered| f64::from(covered) / (n * count as f64))
 }
 
 /// Intervals are Student's, of 95 %, and what few paths of a pixel find is far from normal: those
 /// of plain paths hold 87 % with one path a pixel and 91 % with four. Of bidirectional ones they
-/// hold 95 %, with a standard deviation of 0.3; 30 % narrower ones 84 %, which shows that the test
-/// can fail.
+/// hold 95 %, with a standard deviation of 0.5, in the deep variant 0.3; 30 % narrower ones 84 %,
+/// which shows that the test can fail. Intervals that are 8 % too narrow are found, 7 % there.
 #[test]
 fn intervals_of_pixels_cover() {
-    let all = [1, 2, 4].map(|samples| coverage(EstimatorKind::Auto, samples));
+    let samples: &[u64] = if deep() { &[1, 2, 4] } else { &[1, 2] };
+    let of_auto = |samples: &u64| coverage(EstimatorKind::Auto, *samples);
+    let all: Vec<[f64; 2]> = samples.iter().map(of_auto).collect();
     assert!(all.iter().all(|[whole, _]| (0.935..0.965).contains(whole)), "{all:?}");
     assert!(all.iter().all(|[_, narrower]| *narrower < 0.87), "{all:?}");
     let [paths, more_paths] = [1, 4].map(|samples| coverage(EstimatorKind::Path, samples));
@@ -168,16 +178,18 @@ fn intervals_of_pixels_cover() {
 }
 
 /// Up to a tolerance each block of a picture gets a number of paths of its own. What steers it has
-/// no part in the values, so their means over all seeds are those of plain numbers of paths, and
-/// the intervals of pixels hold as those do.
+/// no part in the values, so their means over 8 seeds, 20 in the deep variant, are those of plain
+/// numbers of paths, and the intervals of pixels hold as those do. A bias of 1.3 % is found nearly
+/// always, of 0.6 % there.
 #[test]
 fn a_tolerance_spreads_paths_and_biases_nothing() {
     let mut scene = furnished();
-    scene.cameras = vec![Camera { rel_tol: Some(0.02), ..eye([32, 32]) }];
+    let (seeds, rel_tol, widest) = if deep() { (20, 0.02, 1e-3) } else { (8, 0.03, 2.4e-3) };
+    scene.cameras = vec![Camera { rel_tol: Some(rel_tol), ..eye([32, 32]) }];
     let settings = &Settings { estimator: EstimatorKind::Auto, ..Settings::default() };
-    let to_tolerance = pictures(&scene, settings, SEEDS / 2);
+    let to_tolerance = pictures(&scene, settings, seeds);
     for picture in to_tolerance.iter().map(|of| &of.cameras[0]) {
-        assert!(picture.is_done && picture.relative_half_width() <= Some(0.02));
+        assert!(picture.is_done && picture.relative_half_width() <= Some(rel_tol));
     }
     let unseen = |number: usize| to_tolerance[0].cameras[0].pixels[number].unseen_cd_m2;
     assert!((0..32 * 32).any(|number| unseen(number) != unseen(0)), "all have as many paths");
@@ -185,11 +197,12 @@ fn a_tolerance_spreads_paths_and_biases_nothing() {
     assert!((0.935..0.965).contains(&covered) && narrower < 0.87, "{covered}, {narrower}");
     scene.cameras[0].rel_tol = None;
     let even = Settings { max_samples: Some(8), ..settings.clone() };
-    let even = pictures(&scene, &even, SEEDS / 2);
+    let even = pictures(&scene, &even, seeds);
     let [mean, error] = mean_of(&to_tolerance);
     let [even, error_of_even] = mean_of(&even);
     assert!((mean - even).abs() < 4.0 * libm::hypot(error, error_of_even), "{mean} and {even}");
-    assert!(error < 0.001 * mean, "{error} of {mean} cd/m2");
+    println!("{mean} +- {error}, evenly {even} +- {error_of_even}");
+    assert!(error < widest * mean, "{error} of {mean} cd/m2");
 }
 
 /// The mean luminance of pictures, and its standard error.

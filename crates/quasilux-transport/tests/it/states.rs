@@ -95,8 +95,8 @@ fn runs() -> Vec<(&'static str, Scene, Settings)> {
     caustics.lights.push(point_light(DVec3::new(1.3, 1.1, 1.9), 300.0));
     let settings = |estimator| Settings {
         estimator,
-        replicates: 4,
-        max_samples: Some(48),
+        replicates: 3,
+        max_samples: Some(32),
         rel_tol: 1e-9,
         ..Settings::default()
     };
@@ -132,7 +132,7 @@ fn runs() -> Vec<(&'static str, Scene, Settings)> {
 fn a_run_goes_on_from_any_of_its_states() {
     for (name, scene, settings) in runs() {
         let whole = simulate(&scene, &settings, &mut ());
-        let mut keeper = Keeper::new(300);
+        let mut keeper = Keeper::new(100);
         assert_eq!(simulate(&scene, &settings, &mut keeper), whole, "{name}");
         let count = keeper.states.len();
         assert!(count > 8, "{name}: {count} states");

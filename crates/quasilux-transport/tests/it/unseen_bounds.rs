@@ -10,11 +10,11 @@ use quasilux_transport::{EstimatorKind, SensorEstimates, Settings, simulate};
 
 const SIZE: DVec3 = DVec3::new(4.0, 3.0, 2.5);
 
-fn first_sensor(scene: &Scene, rel_tol: f64) -> SensorEstimates {
+fn first_sensor(scene: &Scene, rel_tol: f64, samples: u64) -> SensorEstimates {
     let settings = Settings {
         estimator: EstimatorKind::Bidirectional,
         rel_tol,
-        max_samples: Some(1 << 11),
+        max_samples: Some(samples),
         ..Settings::default()
     };
     simulate(scene, &settings, &mut ()).sensors.remove(0)
@@ -35,7 +35,7 @@ fn averages_of_cells_may_miss_what_a_lamp_gives_to_one() {
         let mut scene = room(SIZE, diffuse(reflectance));
         scene.lights.push(point_light(DVec3::new(1.0, 1.0, 1.1), 1000.0));
         scene.sensors.push(level_grid(DVec3::new(0.0, 0.0, 1.0), [4.0, 3.0], [4, 3]));
-        assert_average_has_room(&first_sensor(&scene, 0.01));
+        assert_average_has_room(&first_sensor(&scene, 0.01, 1 << 11));
     }
 }
 
@@ -47,7 +47,7 @@ fn averages_know_that_some_points_had_few_samples() {
     scene.lights.push(point_light(DVec3::new(1.0, 1.0, 2.3), 500.0));
     let niche = (DVec3::new(3.6, 2.9, 0.05), DVec3::NEG_X);
     scene.sensors.push(points("points", &[(DVec3::new(1.0, 1.0, 1.0), DVec3::Z), niche]));
-    let sensor = first_sensor(&scene, 0.02);
+    let sensor = first_sensor(&scene, 0.02, 1 << 11);
     assert!(sensor.samples[0] < sensor.samples[1], "{:?}", sensor.samples);
     assert_average_has_room(&sensor);
 }
@@ -59,7 +59,7 @@ fn paint_of_one_colour_keeps_paths_as_long_as_white() {
         let mut scene = room(SIZE, Bsdf::Diffuse(Diffuse { reflectance }));
         scene.lights.push(point_light(DVec3::new(1.0, 1.0, 1.1), 1000.0));
         scene.sensors.push(points("point", &[(DVec3::new(2.0, 2.0, 1.0), DVec3::Z)]));
-        first_sensor(&scene, 0.0).unseen.unwrap().point_lx[0]
+        first_sensor(&scene, 0.0, 1 << 5).unseen.unwrap().point_lx[0]
     };
     let [white, green] = [Rgb::grey(0.95), Rgb([0.0, 0.95, 0.0])].map(bound_lx);
     assert!(green > 0.5 * white, "{green} lx, {white} lx");
@@ -75,7 +75,7 @@ fn photons_come_again_between_two_mirrors() {
         add_panel(&mut scene, DVec3::new(0.1, 0.1, 2.3), y, x, opposite);
         scene.lights.push(point_light(DVec3::new(1.0, 1.0, 2.2), 1000.0));
         scene.sensors.push(level_grid(DVec3::new(1.0, 1.0, 1.0), [0.1, 0.1], [1, 1]));
-        first_sensor(&scene, 0.0).unseen.unwrap().point_lx[0]
+        first_sensor(&scene, 0.0, 1 << 5).unseen.unwrap().point_lx[0]
     };
     let [one, two] = [diffuse(0.0), mirror(0.99)].map(bound_lx);
     let rounds = 1.0 / (1.0 - 0.99 * 0.99);
