@@ -10,7 +10,7 @@ use crate::release::version;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use toml::Table;
+use toml::{Table, Value};
 use xtask::packages::{self, Package};
 use xtask::workspace::Failure;
 
@@ -48,12 +48,9 @@ fn unpack(root: &Path, target: &Path, packages: &[Package]) -> Result<PathBuf, F
     let _ = fs::remove_dir_all(&folder);
     fs::create_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
     let version = version(root)?;
-    let mut members = Vec::new();
     for Package { name, .. } in packages {
-        let unpacked = format!("{name}-{version}");
-        let archive = target.join(format!("package/{unpacked}.crate"));
+        let archive = target.join(format!("package/{name}-{version}.crate"));
         run(Command::new("tar").arg("-xzf").arg(archive).current_dir(&folder))?;
-        members.push((name.as_str(), unpacked));
     }
     let path = root.join("Cargo.toml");
     let own = fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))?;
@@ -61,21 +58,21 @@ fn unpack(root: &Path, target: &Path, packages: &[Package]) -> Result<PathBuf, F
     let write = |name: &str, text: &str| {
         fs::write(folder.join(name), text).map_err(|error| format!("{name}: {error}"))
     };
-    write("Cargo.toml", &manifest(&members, &own).to_string())?;
+    write("Cargo.toml", &manifest(packages, &version, &own).to_string())?;
     fs::copy(root.join("Cargo.lock"), folder.join("Cargo.lock"))
         .map_err(|error| format!("Cargo.lock: {error}"))?;
     Ok(folder)
 }
 
-/// The manifest of a workspace of these crates and their folders, with the profile by which others
-/// are compiled in the own one.
-fn manifest(members: &[(&str, String)], own: &Table) -> Table {
-    let folders: Vec<toml::Value> =
-        members.iter().map(|(_, folder)| folder.as_str().into()).collect();
+/// The manifest of a workspace of these crates in the folders of their packages, with the profile
+/// by which others are compiled in the own one.
+fn manifest(packages: &[Package], version: &str, own: &Table) -> Table {
+    let folder = |package: &Package| Value::from(format!("{}-{version}", package.name));
+    let folders: Vec<Value> = packages.iter().map(folder).collect();
     let workspace =
         Table::from_iter([("members".into(), folders.into()), ("resolver".into(), "3".into())]);
-    let source = |folder: &String| Table::from_iter([("path".to_owned(), folder.clone().into())]);
-    let sources = members.iter().map(|(name, folder)| ((*name).into(), source(folder).into()));
+    let source = |package| Table::from_iter([("path".to_owned(), folder(package))]);
+    let sources = packages.iter().map(|it| (it.name.clone(), source(it).into()));
     let patch = Table::from_iter([("crates-io".into(), Table::from_iter(sources).into())]);
     let mut profile = own["profile"]["dev"].as_table().cloned().unwrap_or_default();
     // Of crates that may be missing here.
@@ -108,7 +105,8 @@ mod tests {
     #[test]
     fn packages_are_taken_from_their_folders() {
         let own = "[profile.dev]\nopt-level = 2\n[profile.dev.package.light]\nopt-level = 0\n";
-        let made = manifest(&[("light", "light-0.1.0".to_owned())], &own.parse().unwrap());
+        let light = Package { name: "light".to_owned(), missing: Vec::new() };
+        let made = manifest(&[light], "0.1.0", &own.parse().unwrap());
         let expected = "[workspace]\nmembers = ['light-0.1.0']\nresolver = '3'\n\
             [patch.crates-io.light]\npath = 'light-0.1.0'\n[profile.dev]\nopt-level = 2\n";
         assert_eq!(made, expected.parse().unwrap());

@@ -178,18 +178,18 @@ fn intervals_of_pixels_cover() {
 }
 
 /// Up to a tolerance each block of a picture gets a number of paths of its own. What steers it has
-/// no part in the values, so their means over 8 seeds, 20 in the deep variant, are those of plain
-/// numbers of paths, and the intervals of pixels hold as those do. A bias of 1.3 % is found nearly
+/// no part in the values, so their means over 5 seeds, 20 in the deep variant, are those of plain
+/// numbers of paths, and the intervals of pixels hold as those do. A bias of 1.5 % is found nearly
 /// always, of 0.6 % there.
 #[test]
 fn a_tolerance_spreads_paths_and_biases_nothing() {
     let mut scene = furnished();
-    let (seeds, rel_tol, widest) = if deep() { (20, 0.02, 1e-3) } else { (8, 0.03, 2.4e-3) };
-    scene.cameras = vec![Camera { rel_tol: Some(rel_tol), ..eye([32, 32]) }];
+    let (seeds, widest) = if deep() { (20, 1e-3) } else { (5, 2e-3) };
+    scene.cameras = vec![Camera { rel_tol: Some(0.02), ..eye([32, 32]) }];
     let settings = &Settings { estimator: EstimatorKind::Auto, ..Settings::default() };
     let to_tolerance = pictures(&scene, settings, seeds);
     for picture in to_tolerance.iter().map(|of| &of.cameras[0]) {
-        assert!(picture.is_done && picture.relative_half_width() <= Some(rel_tol));
+        assert!(picture.is_done && picture.relative_half_width() <= Some(0.02));
     }
     let unseen = |number: usize| to_tolerance[0].cameras[0].pixels[number].unseen_cd_m2;
     assert!((0..32 * 32).any(|number| unseen(number) != unseen(0)), "all have as many paths");

@@ -81,7 +81,7 @@ fn snapshots_lead_to_the_checkpoints_and_disturb_nothing() {
     for (estimator, samples) in [
         (EstimatorKind::Photon, 1 << 17),
         (EstimatorKind::Path, 1 << 13),
-        (EstimatorKind::Bidirectional, 1 << 12),
+        (EstimatorKind::Bidirectional, 1 << 13),
     ] {
         let mut album = Album::default();
         let settings = settings(estimator, samples);
