@@ -44,7 +44,7 @@ pub(crate) fn folder(name: &str) -> Folder {
     folder
 }
 
-const YEAR: [&str; 6] = ["annual", "a.toml", "--samples", "16", "--rel-tol", "0.1%"];
+const YEAR: [&str; 6] = ["annual", "a.toml", "--samples", "64", "--rel-tol", "0.1%"];
 
 /// All files of results, but for who computed and how long.
 fn results(folder: &Folder, out: &str) -> Vec<(String, Vec<u8>)> {

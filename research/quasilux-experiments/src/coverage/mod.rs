@@ -92,15 +92,14 @@ fn counts(scenes: &[KnownScene], first_seed: u64, seeds: u32) -> Vec<Count> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use quasilux_stats::deep;
 
-    /// 12 seeds from 0 on, 24 in the deep variant, as a whole and with both sequences together:
-    /// each of six counts is of 216 intervals, or of 432. With a coverage of 95 % one of them fails
-    /// once in 500 choices of the seeds. Intervals that are 30 % too narrow cover about 85 % by
-    /// Student's t, which one count misses once in 13, in the deep variant once in 200.
+    /// 24 seeds from 0 on, as a whole and with both sequences together: each of six counts is of
+    /// 432 intervals. With a coverage of 95 % one of them fails once in 500 choices of the seeds.
+    /// Intervals that are 30 % too narrow cover about 85 % by Student's t, which is missed once in
+    /// 200.
     #[test]
     fn intervals_cover_and_narrow_ones_would_be_noticed() {
-        let counts = counts(&scenes::all(), 0, if deep() { 24 } else { 12 });
+        let counts = counts(&scenes::all(), 0, 24);
         let verdict = Verdict::new(&counts, 1.0);
         let failed: Vec<String> = verdict.failures(&counts).map(Count::label).collect();
         assert!(failed.is_empty(), "{failed:?}");
