@@ -35,6 +35,8 @@ const SHARE_OF_TOLERANCE: f64 = 0.5;
 pub struct FoundIlluminance {
     /// In lx.
     pub lx: f64,
+    /// In lx; `None` where it is unknown.
+    pub half_width_lx: Option<f64>,
     /// The samples of each replicate behind it.
     pub samples: u64,
 }
@@ -52,7 +54,8 @@ pub struct DaylightComponents {
 }
 
 /// The components at all sensor points, sensor by sensor, of illuminances to whose tolerance they
-/// are to be known, with at most four paths for each of their samples. `None` where the sky does
+/// are to be known, or half-width where that is larger, with at most four paths for each of their
+/// samples. `None` where the sky does
 /// not shine alone, and where there are no openings that make an inside.
 ///
 /// `goes_on` is asked again and again: once it says no, points get no more paths. The result is a
@@ -102,8 +105,9 @@ fn of_points<S: Spectrum>(
     let point = |(number, target)| {
         let of = |replicate| TargetReplicate { number, target, replicate };
         let found = illuminances.get(number);
-        let FoundIlluminance { lx, samples } = found.copied().unwrap_or_default();
-        let mut schedule = stopping.looks(samples.saturating_mul(PER_SAMPLE).max(MIN_SAMPLES));
+        let found = found.copied().unwrap_or_default();
+        let mut schedule =
+            stopping.looks(found.samples.saturating_mul(PER_SAMPLE).max(MIN_SAMPLES));
         let mut sums = vec![[0.0; 2]; settings.effective_replicates() as usize];
         let mut wave = PathWave::default();
         let mut paths = 0;
@@ -113,9 +117,9 @@ fn of_points<S: Spectrum>(
                 add(context, of(replicate), paths..goal, &mut wave, sums);
             }
             paths = goal;
-            let found = components(&sums, paths, most_lx, t);
-            if found.are_known(settings, lx) || !goes_on() || !schedule.advance() {
-                return found;
+            let own = components(&sums, paths, most_lx, t);
+            if own.are_known(settings, &found) || !goes_on() || !schedule.advance() {
+                return own;
             }
         }
     };
@@ -157,10 +161,12 @@ fn components(sums: &[[f64; 2]], paths: u64, most_lx: f64, t: Option<f64>) -> Da
 }
 
 impl DaylightComponents {
-    /// Whether both are known well enough beside an illuminance in lx. Without a tolerance all
+    /// Whether both are known well enough beside an illuminance. Without a tolerance all
     /// paths are traced.
-    fn are_known(&self, settings: &Settings, illuminance_lx: f64) -> bool {
-        let enough_lx = SHARE_OF_TOLERANCE * settings.tolerance_lx(illuminance_lx);
+    fn are_known(&self, settings: &Settings, illuminance: &FoundIlluminance) -> bool {
+        let &FoundIlluminance { lx, half_width_lx, .. } = illuminance;
+        let enough_lx = SHARE_OF_TOLERANCE * settings.tolerance_lx(lx);
+        let enough_lx = half_width_lx.map_or(enough_lx, |own_lx| enough_lx.max(own_lx));
         let is_known = |it: Interval| {
             it.or_unseen(self.unseen_lx).half_width.is_some_and(|width| width <= enough_lx)
         };

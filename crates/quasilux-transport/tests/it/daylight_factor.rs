@@ -40,7 +40,8 @@ fn illuminances(scene: &Scene, seed: u64) -> Vec<Interval> {
 }
 
 fn components(scene: &Scene, seed: u64) -> Option<Vec<DaylightComponents>> {
-    let found = |it: &Interval| FoundIlluminance { lx: it.value, samples: samples() };
+    let found =
+        |it: &Interval| FoundIlluminance { lx: it.value, half_width_lx: None, samples: samples() };
     let found: Vec<FoundIlluminance> = illuminances(scene, seed).iter().map(found).collect();
     daylight_components(scene, &settings(seed), &found, &|| true)
 }
@@ -142,7 +143,8 @@ fn other_light_has_no_components() {
     let mut environment = outside(&mut numbers);
     scene.environment = Some(environment.clone());
     let settings = Settings { max_samples: Some(64), ..settings(1) };
-    let found = vec![FoundIlluminance { lx: 100.0, samples: 64 }; scene.sensors[0].points().len()];
+    let found = FoundIlluminance { lx: 100.0, half_width_lx: None, samples: 64 };
+    let found = vec![found; scene.sensors[0].points().len()];
     let components = |scene: &Scene| daylight_components(scene, &settings, &found, &|| true);
     assert_eq!(components(&scene), None);
     environment.openings.push(window);

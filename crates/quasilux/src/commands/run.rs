@@ -191,6 +191,7 @@ fn daylight(
         let intervals = estimates.point_intervals(sensor);
         let found = |(interval, samples): (Interval, &u64)| FoundIlluminance {
             lx: interval.value,
+            half_width_lx: interval.half_width,
             samples: *samples,
         };
         intervals.into_iter().zip(&estimates.sensors[sensor].samples).map(found)
