@@ -26,8 +26,7 @@ fn damaged_weather_never_panics() {
         "\n".repeat(LENGTH),
         wea.to_owned() + &"\n".repeat(LENGTH),
         wea.to_owned() + &"1 1 .5 1 1\n".repeat(LENGTH / 11),
-        // Each field of a line costs as much as all before it.
-        "LOCATION".to_owned() + &",".repeat(LENGTH / 8),
+        "LOCATION".to_owned() + &",".repeat(LENGTH),
         "LOCATION\n".to_owned() + &",\n".repeat(LENGTH / 2),
         format!("place {}", "9".repeat(LENGTH)),
     ] {

@@ -29,19 +29,24 @@ impl<'t> Row<'t> {
 
     /// Fields between commas, without blanks around them.
     pub(super) fn by_commas(&self) -> Vec<Token<'t>> {
-        self.text.split(',').map(|field| self.token(field.trim())).collect()
+        self.tokens(self.text.split(',').map(str::trim))
     }
 
     /// Fields between blanks.
     pub(super) fn by_blanks(&self) -> Vec<Token<'t>> {
-        self.text.split_whitespace().map(|field| self.token(field)).collect()
+        self.tokens(self.text.split_whitespace())
     }
 
-    /// A part of the line.
-    fn token(&self, part: &'t str) -> Token<'t> {
-        let before = part.as_ptr() as usize - self.text.as_ptr() as usize;
-        let column = self.text[..before].chars().count() + 1;
-        Token { text: part, at: Position { line: self.line, column } }
+    /// Parts of the line, in their order; each character is counted once, however many there are.
+    fn tokens(&self, parts: impl Iterator<Item = &'t str>) -> Vec<Token<'t>> {
+        let (mut counted, mut column) = (0, 1);
+        let token = |part: &'t str| {
+            let start = part.as_ptr() as usize - self.text.as_ptr() as usize;
+            column += self.text[counted..start].chars().count();
+            counted = start;
+            Token { text: part, at: Position { line: self.line, column } }
+        };
+        parts.map(token).collect()
     }
 
     /// The field of this number; `what` is expected there.

@@ -1,4 +1,5 @@
-//! Estimators of sensor values.
+//! Estimators of sensor values. The settings name one, nothing picks it: `auto` is `bidirectional`,
+//! also where documents say `auto` (`run.estimator`); years and daylight factors take `path`.
 
 pub(crate) mod bidirectional;
 pub(crate) mod block;
