@@ -7,6 +7,8 @@ use std::io;
 pub enum FileKind {
     /// Wavefront OBJ, glTF or GLB.
     Geometry,
+    /// A Honeybee model.
+    Model,
     /// Wavefront MTL.
     MaterialLibrary,
     /// A buffer of a glTF file.
@@ -29,8 +31,9 @@ pub enum FileKind {
 
 impl FileKind {
     /// All kinds.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::Geometry,
+        Self::Model,
         Self::MaterialLibrary,
         Self::Buffer,
         Self::Photometry,
@@ -48,7 +51,7 @@ impl FileKind {
         match self {
             Self::Geometry | Self::Buffer => 2 << 30,
             Self::Panorama => 1 << 30,
-            Self::Bsdf => 256 << 20,
+            Self::Bsdf | Self::Model => 256 << 20,
             Self::MaterialLibrary | Self::Photometry | Self::Weather => 64 << 20,
             Self::Glazing | Self::Schedule => 16 << 20,
             Self::Tilt => 1 << 20,

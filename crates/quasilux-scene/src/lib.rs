@@ -15,6 +15,7 @@ pub mod environment;
 pub mod error;
 mod files;
 mod geometry;
+mod honeybee;
 pub mod light;
 pub mod load;
 pub mod mesh;

@@ -1,6 +1,6 @@
 //! Triangles of all files to one mesh with shared vertices.
 
-use super::{FileMaterial, Geometry};
+use super::{FileMaterial, FileScattering, Geometry};
 use crate::project::UpAxis;
 use crate::{LoadError, Rgb, Warning};
 use glam::DVec3;
@@ -17,9 +17,10 @@ pub(super) const MAX_TRIANGLES: usize = 50_000_000;
 /// Collects triangles of one file after the other.
 pub(crate) struct MeshBuilder {
     pub(super) geometry: Geometry,
-    up: UpAxis,
-    /// The unit of the files in m.
-    unit_m: f64,
+    /// Axis and unit of files that do not say theirs.
+    usual: Frame,
+    /// Of the current file.
+    frame: Frame,
     vertex_of: HashMap<[u64; 3], u32>,
     material_of: HashMap<String, u32>,
     file: String,
@@ -27,6 +28,13 @@ pub(crate) struct MeshBuilder {
     triangles: u64,
     dropped: u64,
     total: u64,
+}
+
+/// How coordinates of a file become those of the scene.
+#[derive(Clone, Copy)]
+struct Frame {
+    up: UpAxis,
+    unit_m: f64,
 }
 
 /// Why a triangle cannot be taken.
@@ -47,10 +55,11 @@ pub(crate) struct Look {
 
 impl MeshBuilder {
     pub(crate) fn new(up: UpAxis, unit_m: f64) -> Self {
+        let usual = Frame { up, unit_m };
         Self {
             geometry: Geometry::default(),
-            up,
-            unit_m,
+            usual,
+            frame: usual,
             vertex_of: HashMap::new(),
             material_of: HashMap::new(),
             file: String::new(),
@@ -62,8 +71,14 @@ impl MeshBuilder {
 
     pub(super) fn start_file(&mut self, file: &str) {
         file.clone_into(&mut self.file);
+        self.frame = self.usual;
         self.triangles = 0;
         self.dropped = 0;
+    }
+
+    /// Takes the coordinates of the current file by what it says itself.
+    pub(super) fn measure_file_in(&mut self, up: UpAxis, unit_m: f64) {
+        self.frame = Frame { up, unit_m };
     }
 
     pub(super) fn finish_file(&mut self, warnings: &mut Vec<Warning>) -> Result<(), LoadError> {
@@ -125,6 +140,25 @@ impl MeshBuilder {
         }
     }
 
+    /// As [`Self::describe`], of all that a file says of how a material scatters.
+    pub(super) fn describe_scattering(
+        &mut self,
+        material: u32,
+        scattering: FileScattering,
+        warnings: &mut Vec<Warning>,
+    ) {
+        let known = &mut self.geometry.materials[material as usize];
+        if known.reflectance.is_none() && known.scattering.is_none() {
+            known.scattering = Some(scattering);
+        } else if known.scattering.as_ref() != Some(&scattering) {
+            warnings.push(Warning::new(
+                &self.file,
+                None,
+                format!("material \"{}\" scatters otherwise before: kept", known.name),
+            ));
+        }
+    }
+
     /// Takes a triangle of the current file, in the file's own axes; drops it if it has no area.
     pub(crate) fn triangle(
         &mut self,
@@ -155,12 +189,13 @@ impl MeshBuilder {
     }
 
     fn vertex(&mut self, position: DVec3) -> u32 {
-        let turned = match self.up {
+        let Frame { up, unit_m } = self.frame;
+        let turned = match up {
             UpAxis::Z => position,
             UpAxis::Y => DVec3::new(position.x, -position.z, position.y),
         };
         // Adding zero makes -0 and +0 the same bits.
-        let position = turned * self.unit_m + DVec3::ZERO;
+        let position = turned * unit_m + DVec3::ZERO;
         let positions = &mut self.geometry.mesh.positions;
         *self.vertex_of.entry(position.to_array().map(f64::to_bits)).or_insert_with(|| {
             positions.push(position);

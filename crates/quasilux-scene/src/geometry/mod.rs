@@ -1,4 +1,4 @@
-//! Geometry: OBJ and glTF files and arrays to one mesh with shared vertices.
+//! Geometry: OBJ and glTF files, Honeybee models and arrays to one mesh with shared vertices.
 //!
 //! Each reader hands its triangles to one [`MeshBuilder`], which turns them up, merges vertices at
 //! exactly the same position, and counts the degenerate triangles that it drops.
@@ -7,6 +7,7 @@ mod arrays;
 mod builder;
 mod copies;
 mod corner_grid;
+mod cut;
 mod data_uri;
 mod gltf;
 mod gltf_accessor;
@@ -14,14 +15,17 @@ mod gltf_buffers;
 mod gltf_elements;
 mod gltf_primitive;
 mod gltf_sparse;
+mod honeybee;
 mod mtl;
 mod obj;
 mod obj_lines;
 mod polygon;
 
 use crate::project::{Project, UpAxis};
-use crate::{FileKind, Files, LoadError, Mesh, Rgb, Spanned, Warning, files as reading};
+use crate::{Bsdf, FileKind, Files, LoadError, Mesh, Rgb, Spanned, Warning, files as reading};
 use builder::MeshBuilder;
+use glam::DVec3;
+use std::sync::Arc;
 
 /// The name that triangles without a material get.
 pub(crate) const DEFAULT_MATERIAL: &str = "default";
@@ -44,8 +48,30 @@ pub(crate) struct FileMaterial {
     pub(crate) emits: bool,
     /// Whether a file says that light passes through it.
     pub(crate) is_clear: bool,
+    /// How it scatters, where a file says more than a reflectance.
+    pub(crate) scattering: Option<FileScattering>,
     /// The first file that uses it.
     pub(crate) file: String,
+}
+
+impl FileMaterial {
+    /// Whether a file says how it scatters.
+    pub(crate) fn is_described(&self) -> bool {
+        self.reflectance.is_some() || self.scattering.is_some()
+    }
+}
+
+/// What a geometry file says of how a material scatters light.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum FileScattering {
+    Described(Bsdf),
+    /// By the tables of an XML text, whose `y` axis points along `up`.
+    Sheet {
+        xml: Arc<str>,
+        up: DVec3,
+    },
+    /// Something that there is nothing for, in the words of a refusal.
+    Unknown(String),
 }
 
 /// Format of a geometry file: a closed set, a module for each.
@@ -53,6 +79,7 @@ pub(crate) struct FileMaterial {
 enum GeometryFormat {
     Obj,
     Gltf,
+    Honeybee,
 }
 
 impl GeometryFormat {
@@ -62,7 +89,15 @@ impl GeometryFormat {
         match extension.to_ascii_lowercase().as_str() {
             "obj" => Some(Self::Obj),
             "gltf" | "glb" => Some(Self::Gltf),
+            "hbjson" => Some(Self::Honeybee),
             _ => None,
+        }
+    }
+
+    const fn kind(self) -> FileKind {
+        match self {
+            Self::Obj | Self::Gltf => FileKind::Geometry,
+            Self::Honeybee => FileKind::Model,
         }
     }
 }
@@ -83,12 +118,13 @@ pub(crate) fn read(
         }
         let format = GeometryFormat::of_name(&file.value).ok_or_else(|| {
             let message = format!(
-                "\"{}\" is no geometry file; expected a name that ends in .obj, .gltf or .glb",
+                "\"{}\" is no geometry file; expected a name that ends in .obj, .gltf, .glb \
+                 or .hbjson",
                 file.value
             );
             project.error(file.place, message)
         })?;
-        let bytes = read_file(project, file, files, FileKind::Geometry)?;
+        let bytes = read_file(project, file, files, format.kind())?;
         quasilux_text::refuse_web_page(&bytes).map_err(|error| {
             LoadError::new(&file.value, Some(error.position()), error.message())
         })?;
@@ -101,6 +137,9 @@ pub(crate) fn read(
                     warnings.push(Warning::new(&file.value, None, message));
                 }
                 gltf::read(&bytes, files, &mut builder, warnings)?;
+            }
+            GeometryFormat::Honeybee => {
+                honeybee::read(&bytes, project, &mut builder, warnings)?;
             }
         }
         builder.finish_file(warnings)?;

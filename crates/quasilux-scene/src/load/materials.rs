@@ -3,9 +3,9 @@
 use super::glazing::GlazingFiles;
 use super::measured::MeasuredFiles;
 use crate::bsdf::Diffuse;
-use crate::geometry::{DEFAULT_MATERIAL, FileMaterial, Geometry};
+use crate::geometry::{DEFAULT_MATERIAL, FileMaterial, FileScattering, Geometry};
 use crate::project::{LightEntry, MaterialEntry, Project, Scattering};
-use crate::{Bsdf, Files, LoadError, Material, Rgb, Warning};
+use crate::{Bsdf, Files, LoadError, Material, Rgb, Spanned, Warning};
 use std::collections::{HashMap, HashSet};
 
 /// Reflectance of materials that neither the project nor a geometry file defines.
@@ -41,6 +41,9 @@ pub(super) fn resolve(
             };
         let bsdf = match (entry_of(&material.name), material.reflectance) {
             (Some(entry), _) => bsdf_of(entry, warnings)?,
+            (None, _) if material.scattering.is_some() => {
+                of_file(material, number, geometry, &mut measured, warnings)?
+            }
             (None, Some(reflectance)) => {
                 if material.is_clear && count > 0 {
                     warnings.push(opaque(material));
@@ -59,6 +62,30 @@ pub(super) fn resolve(
         materials.push(Material { name: material.name.clone(), bsdf });
     }
     Ok(materials)
+}
+
+/// What a geometry file describes as a whole.
+fn of_file(
+    material: &FileMaterial,
+    number: u32,
+    geometry: &Geometry,
+    measured: &mut MeasuredFiles<'_>,
+    warnings: &mut Vec<Warning>,
+) -> Result<Bsdf, LoadError> {
+    match &material.scattering {
+        None => Ok(grey()),
+        Some(FileScattering::Described(bsdf)) => Ok(bsdf.clone()),
+        Some(FileScattering::Unknown(refusal)) => {
+            Err(LoadError::new(&material.file, None, refusal))
+        }
+        Some(FileScattering::Sheet { xml, up }) => {
+            let name = format!("{}#{}", material.file, material.name);
+            let sheet = measured.read_text(&name, xml, *up, warnings)?;
+            let up = Spanned { value: *up, place: measured.scene_place() };
+            measured.must_lie_across(Some(&up), &geometry.mesh, number)?;
+            Ok(Bsdf::Measured(sheet))
+        }
+    }
 }
 
 /// Refuses materials that no geometry uses.

@@ -7,6 +7,7 @@ use crate::project::Project;
 use crate::{FileKind, Files, LoadError, Mesh, Spanned, Warning};
 use glam::DVec3;
 use quasilux_bsdf::{MeasuredBsdf, read_bsdf_named};
+use quasilux_text::Position;
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -37,12 +38,7 @@ impl<'a> MeasuredFiles<'a> {
             Some(known) => Arc::clone(known),
             None => {
                 let bytes = read_file(self.project, file, self.files, FileKind::Bsdf)?;
-                let read =
-                    read_bsdf_named(name, &bytes).map_err(|error| load_error(name, &error))?;
-                warnings.extend(read.warnings.iter().map(|warning| passed_on(name, warning)));
-                let table = Arc::new(read.bsdf);
-                self.tables.insert(name.to_owned(), Arc::clone(&table));
-                table
+                self.table(name, &bytes, warnings)?
             }
         };
         if up.is_none() && !table.is_isotropic() {
@@ -53,6 +49,36 @@ impl<'a> MeasuredFiles<'a> {
             return Err(self.project.error(file.place, message));
         }
         Ok(Measured::new(table, up.map(|up| up.value)))
+    }
+
+    /// The sheet of a text that a geometry file holds, under a name of its own.
+    pub(super) fn read_text(
+        &mut self,
+        name: &str,
+        text: &str,
+        up: DVec3,
+        warnings: &mut Vec<Warning>,
+    ) -> Result<Measured, LoadError> {
+        let table = self.table(name, text.as_bytes(), warnings)?;
+        Ok(Measured::new(table, Some(up)))
+    }
+
+    fn table(
+        &mut self,
+        name: &str,
+        bytes: &[u8],
+        warnings: &mut Vec<Warning>,
+    ) -> Result<Arc<MeasuredBsdf>, LoadError> {
+        let read = read_bsdf_named(name, bytes).map_err(|error| load_error(name, &error))?;
+        warnings.extend(read.warnings.iter().map(|warning| passed_on(name, warning)));
+        let table = Arc::new(read.bsdf);
+        self.tables.insert(name.to_owned(), Arc::clone(&table));
+        Ok(table)
+    }
+
+    /// Where the project file names its geometry.
+    pub(super) fn scene_place(&self) -> Position {
+        self.project.scene_place
     }
 
     /// Refuses facets of a material that its upward direction stands on.

@@ -70,9 +70,7 @@ impl Places {
             cameras: project.cameras.iter().map(|entry| entry.place).collect(),
             openings: project.outside.iter().flat_map(|it| it.places.openings.clone()).collect(),
             is_described: described
-                .map(|(of_file, place)| {
-                    has_default || place.is_some() || of_file.reflectance.is_some()
-                })
+                .map(|(of_file, place)| has_default || place.is_some() || of_file.is_described())
                 .collect(),
             materials,
         }

@@ -8,6 +8,7 @@ mod cameras;
 mod corpus;
 mod glazing;
 mod gltf;
+mod honeybee_corpus;
 mod materials;
 mod mutations;
 mod obj;

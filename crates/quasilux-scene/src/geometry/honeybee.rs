@@ -1,0 +1,145 @@
+//! The surfaces of a Honeybee model, with what they are made of.
+
+use super::FileScattering;
+use super::builder::{Look as FileLook, MeshBuilder};
+use super::cut::HoleCutter;
+use crate::honeybee::{
+    Face3D, Findings, Look, Mesh3D, Model, Point, Shape, Surface, Surfaces, surfaces,
+};
+use crate::project::{Project, UpAxis};
+use crate::{LoadError, Rgb, Warning};
+use glam::DVec3;
+
+/// Reads a model into `builder`, in its own unit.
+pub(super) fn read(
+    bytes: &[u8],
+    project: &Project,
+    builder: &mut MeshBuilder,
+    warnings: &mut Vec<Warning>,
+) -> Result<(), LoadError> {
+    let file = builder.file().to_owned();
+    let model = Model::parse(&file, bytes)?;
+    let mut findings = Findings::default();
+    let Surfaces { surfaces, materials, groups } = surfaces(&file, &model, &mut findings)?;
+    builder.measure_file_in(UpAxis::Z, model.unit().metres());
+    let numbers: Vec<u32> = materials.iter().map(|(name, _)| builder.material(name)).collect();
+    for (&number, (_, look)) in numbers.iter().zip(materials) {
+        describe(number, look, builder, warnings);
+    }
+    let mut reader = Reader { builder, cutter: HoleCutter::new(), findings: &mut findings };
+    for surface in &surfaces {
+        reader.surface(surface, numbers[surface.material])?;
+    }
+    tell_unused(&model, groups.len(), project, &mut findings);
+    warnings.extend(findings.into_warnings(&file));
+    Ok(())
+}
+
+/// Notes what a material is made of.
+fn describe(number: u32, look: Look, builder: &mut MeshBuilder, warnings: &mut Vec<Warning>) {
+    let scattering = match look {
+        Look::Surface(bsdf) => FileScattering::Described(bsdf),
+        Look::Sheet { xml, up } => FileScattering::Sheet { xml, up },
+        Look::Unknown(refusal) => FileScattering::Unknown(refusal),
+        Look::Light(_) => {
+            let look = FileLook { reflectance: Rgb::BLACK, emits: true, is_clear: false };
+            return builder.describe(number, look, warnings);
+        }
+        // There is nothing of it.
+        Look::Open => return,
+    };
+    builder.describe_scattering(number, scattering, warnings);
+}
+
+/// Tells of what a model has beside surfaces, and the project has nothing of.
+fn tell_unused(model: &Model, groups: usize, project: &Project, findings: &mut Findings) {
+    let Some(radiance) = model.radiance() else { return };
+    let counts = [
+        ("luminaires", radiance.luminaires.len(), project.luminaires.is_empty()),
+        ("sensor grids", radiance.sensor_grids.len(), project.sensors.is_empty()),
+        ("dynamic groups", groups, project.blinds.is_empty()),
+        ("views", radiance.views.len(), project.cameras.is_empty()),
+    ];
+    for (what, count, is_without) in counts {
+        if count > 0 && is_without {
+            let message = format!(
+                "{count} {what} of the model are not in the project; `quasilux import` writes a \
+                 project with them"
+            );
+            findings.note("properties.radiance", message);
+        }
+    }
+}
+
+struct Reader<'r> {
+    builder: &'r mut MeshBuilder,
+    cutter: HoleCutter,
+    findings: &'r mut Findings,
+}
+
+impl Reader<'_> {
+    fn surface(&mut self, surface: &Surface<'_>, material: u32) -> Result<(), LoadError> {
+        let object = self.builder.object(&surface.name.into());
+        let triangles = match &surface.shape {
+            Shape::Polygon { outline, cut_out } => {
+                self.polygon(outline, cut_out, &surface.place)?
+            }
+            Shape::Mesh(mesh) => facets(mesh, &surface.place)
+                .map_err(|message| LoadError::new(self.builder.file(), None, message))?,
+        };
+        for corners in triangles {
+            self.builder.triangle(object, material, corners).map_err(|error| {
+                let message = error.message(&surface.place);
+                LoadError::new(self.builder.file(), None, message)
+            })?;
+        }
+        Ok(())
+    }
+
+    fn polygon(
+        &mut self,
+        outline: &Face3D,
+        cut_out: &[&Face3D],
+        place: &str,
+    ) -> Result<Vec<[DVec3; 3]>, LoadError> {
+        if outline.boundary.len() < 3 {
+            self.findings.note(place, "a polygon of fewer than three corners is left out");
+            return Ok(Vec::new());
+        }
+        let holes = outline.holes.iter().chain(cut_out.iter().map(|it| &it.boundary));
+        let holes: Vec<Vec<DVec3>> = holes.map(|points| positions(points)).collect();
+        let left = self.cutter.cut(&positions(&outline.boundary), &holes).map_err(|message| {
+            LoadError::new(self.builder.file(), None, format!("{place}: {message}"))
+        })?;
+        if !left.is_as_expected() {
+            let note = "its holes, apertures and doors lie over one another or beyond its edges: \
+                        what they cover is cut out once";
+            self.findings.note(place, note);
+        }
+        Ok(left.triangles)
+    }
+}
+
+fn positions(points: &[Point]) -> Vec<DVec3> {
+    points.iter().map(|point| point.0).collect()
+}
+
+/// The triangles of a mesh; a quadrangle is two.
+fn facets(mesh: &Mesh3D, place: &str) -> Result<Vec<[DVec3; 3]>, String> {
+    let mut triangles = Vec::new();
+    for (number, facet) in mesh.faces.iter().enumerate() {
+        let vertex = |&index: &u32| {
+            let vertex = mesh.vertices.get(index as usize).map(|point| point.0);
+            vertex.ok_or_else(|| {
+                format!(
+                    "{place}.geometry.faces[{number}] has the vertex {index}; expected numbers \
+                     below {}",
+                    mesh.vertices.len()
+                )
+            })
+        };
+        let corners = facet.corners().iter().map(vertex).collect::<Result<Vec<_>, _>>()?;
+        triangles.extend((2..corners.len()).map(|i| [corners[0], corners[i - 1], corners[i]]));
+    }
+    Ok(triangles)
+}

@@ -1,0 +1,85 @@
+//! Dynamic groups: apertures, doors and shades that change together from state to state.
+//!
+//! State 0 is how the scene is. What changes has a material of its own in the scene, so that each
+//! state is what materials are in it, and which shades there are beside.
+
+use super::looks::{Look, invisible};
+use super::model::Face3D;
+use crate::Bsdf;
+use crate::bsdf::Diffuse;
+
+/// A group, its states behind the first as changes of the scene.
+#[derive(Debug)]
+pub(crate) struct Group<'m> {
+    pub(crate) name: String,
+    members: Vec<Member>,
+    shades: Vec<StateShade<'m>>,
+    /// Of the member that has most.
+    states: usize,
+}
+
+/// What changes alike: a material of the scene, and its look in each state.
+#[derive(Debug)]
+struct Member {
+    material: String,
+    looks: Vec<Look>,
+}
+
+/// A shade that is there in one state behind the first.
+#[derive(Clone, Debug)]
+pub(crate) struct StateShade<'m> {
+    pub(crate) state: usize,
+    pub(crate) name: &'m str,
+    pub(crate) geometry: &'m Face3D,
+    pub(crate) material: String,
+    pub(crate) look: Look,
+    /// The path of its key.
+    pub(crate) place: String,
+}
+
+/// A state behind the first.
+#[derive(Debug)]
+pub(crate) struct GroupState<'g, 'm> {
+    /// What materials are in it, by name.
+    pub(crate) looks: Vec<(&'g str, &'g Look)>,
+    pub(crate) shades: Vec<&'g StateShade<'m>>,
+}
+
+impl<'m> Group<'m> {
+    pub(super) fn new(name: &str) -> Self {
+        Self { name: name.to_owned(), members: Vec::new(), shades: Vec::new(), states: 1 }
+    }
+
+    /// Adds something that has this material in the scene. Of looks that are fewer than states the
+    /// last one holds.
+    pub(super) fn add(&mut self, material: String, looks: Vec<Look>) {
+        self.states = self.states.max(looks.len());
+        self.members.push(Member { material, looks });
+    }
+
+    pub(super) fn add_shade(&mut self, shade: StateShade<'m>) {
+        self.states = self.states.max(shade.state + 1);
+        self.shades.push(shade);
+    }
+
+    /// The states behind the first, with their numbers.
+    pub(crate) fn states(&self) -> impl Iterator<Item = (usize, GroupState<'_, 'm>)> {
+        (1..self.states).map(|state| {
+            let look = |member: &'_ Member| member.looks.len().min(state + 1) - 1;
+            let looks = self.members.iter();
+            let looks = looks.map(|it| (it.material.as_str(), &it.looks[look(it)])).collect();
+            let shades = self.shades.iter().filter(|shade| shade.state == state).collect();
+            (state, GroupState { looks, shades })
+        })
+    }
+}
+
+/// The look of something that stays where it is: what is open lets all light through, and nothing
+/// shines in some states alone.
+pub(super) fn in_place(look: Look) -> Look {
+    match look {
+        Look::Open => Look::Surface(invisible()),
+        Look::Light(_) => Look::Surface(Bsdf::Diffuse(Diffuse { reflectance: crate::Rgb::BLACK })),
+        other => other,
+    }
+}

@@ -1,0 +1,27 @@
+//! Honeybee models (HBJSON): rooms and shades with their modifiers, sensor grids, views,
+//! luminaires and dynamic groups.
+//!
+//! [`Model`] is the file as the honeybee-schema of Ladybug Tools has it (2026), with the keys that
+//! say something of light; [`Model::parse`] refuses what has the wrong type. [`surfaces`] says which
+//! polygons there are and what they are made of: a face with its apertures and doors cut out, the
+//! two faces between rooms once. What becomes of all that is up to
+//! [`geometry`](crate::geometry) and [`import`](crate::import).
+
+mod defaults;
+mod document;
+mod findings;
+mod glass;
+mod groups;
+mod looks;
+mod model;
+mod modifiers;
+mod radiance;
+mod surfaces;
+
+pub(crate) use document::Point;
+pub(crate) use findings::Findings;
+pub(crate) use groups::{Group, GroupState, StateShade};
+pub(crate) use looks::Look;
+pub(crate) use model::{Face3D, Mesh3D, Model};
+pub(crate) use radiance::{Luminaire, SensorGrid, View};
+pub(crate) use surfaces::{Shape, Surface, Surfaces, surfaces};

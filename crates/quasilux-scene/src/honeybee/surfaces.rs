@@ -1,0 +1,442 @@
+//! Which surfaces a model has, and what they are made of.
+
+use super::document::List;
+use super::findings::Findings;
+use super::groups::{Group, StateShade, in_place};
+use super::looks::{Look, look};
+use super::model::{Aperture, Boundary, Door, Face, Face3D, FaceType, Mesh3D, Model, Room, Shade};
+use super::modifiers::{Modifiers, Slot};
+use super::radiance::{Modifier, ModifierSet, State, SubFaceRadiance};
+use crate::LoadError;
+use std::collections::{HashMap, HashSet};
+
+/// All surfaces, with materials and groups.
+#[derive(Debug)]
+pub(crate) struct Surfaces<'m> {
+    pub(crate) surfaces: Vec<Surface<'m>>,
+    /// The materials by name.
+    pub(crate) materials: Vec<(String, Look)>,
+    pub(crate) groups: Vec<Group<'m>>,
+}
+
+/// Something that light meets.
+#[derive(Debug)]
+pub(crate) struct Surface<'m> {
+    pub(crate) name: &'m str,
+    /// The path of its key.
+    pub(crate) place: String,
+    /// The number of its material.
+    pub(crate) material: usize,
+    pub(crate) shape: Shape<'m>,
+}
+
+#[derive(Debug)]
+pub(crate) enum Shape<'m> {
+    /// A polygon without others that lie in its plane.
+    Polygon {
+        outline: &'m Face3D,
+        cut_out: Vec<&'m Face3D>,
+    },
+    Mesh(&'m Mesh3D),
+}
+
+/// Collects the surfaces of a model; `file` is what messages call it.
+pub(crate) fn surfaces<'m>(
+    file: &'m str,
+    model: &'m Model,
+    findings: &mut Findings,
+) -> Result<Surfaces<'m>, LoadError> {
+    let mut collector = Collector {
+        file,
+        modifiers: Modifiers::new(file, model),
+        findings,
+        number_of: HashMap::new(),
+        member_of: HashMap::new(),
+        names: HashSet::new(),
+        written: HashMap::new(),
+        found: Surfaces { surfaces: Vec::new(), materials: Vec::new(), groups: Vec::new() },
+    };
+    collector.model(model)?;
+    Ok(collector.found)
+}
+
+/// The side of a pair that was met first.
+struct FirstSide {
+    identifier: String,
+    modifier: Option<String>,
+}
+
+struct Collector<'a, 'm> {
+    file: &'m str,
+    modifiers: Modifiers<'m>,
+    findings: &'a mut Findings,
+    /// Materials by the identifier of their modifier.
+    number_of: HashMap<String, usize>,
+    /// Materials by what changes alike: the group, and the modifiers of all states.
+    member_of: HashMap<(usize, Vec<String>), usize>,
+    /// Of all materials.
+    names: HashSet<String>,
+    /// By the identifier of the other side.
+    written: HashMap<String, FirstSide>,
+    found: Surfaces<'m>,
+}
+
+/// A thing that has states.
+#[derive(Clone, Copy)]
+struct Thing<'m> {
+    name: &'m str,
+    radiance: Option<&'m SubFaceRadiance>,
+    set: Option<&'m ModifierSet>,
+    slot: Slot,
+}
+
+/// An aperture or a door.
+struct SubFace<'m> {
+    thing: Thing<'m>,
+    geometry: &'m Face3D,
+    boundary: &'m Boundary,
+    indoor_shades: &'m [Shade],
+    outdoor_shades: &'m [Shade],
+}
+
+impl<'m> SubFace<'m> {
+    fn of_aperture(it: &'m Aperture, set: Option<&'m ModifierSet>, face_type: FaceType) -> Self {
+        let slot = match (it.boundary_condition.is_inside(), it.is_operable, face_type) {
+            (true, ..) => Slot::InteriorWindow,
+            (false, Some(true), _) => Slot::Operable,
+            (false, _, FaceType::Wall) => Slot::Window,
+            _ => Slot::Skylight,
+        };
+        let Aperture { geometry, indoor_shades, outdoor_shades, properties, .. } = it;
+        let thing = Thing { name: &it.identifier, radiance: properties.get(), set, slot };
+        let boundary = &it.boundary_condition;
+        Self { thing, geometry, boundary, indoor_shades, outdoor_shades }
+    }
+
+    fn of_door(it: &'m Door, set: Option<&'m ModifierSet>, face_type: FaceType) -> Self {
+        let (is_inside, is_glass) =
+            (it.boundary_condition.is_inside(), it.is_glass.unwrap_or(false));
+        let is_overhead = !is_inside && !is_glass && face_type != FaceType::Wall;
+        let slot =
+            if is_overhead { Slot::OverheadDoor } else { Slot::Door { is_inside, is_glass } };
+        let Door { geometry, indoor_shades, outdoor_shades, properties, .. } = it;
+        let thing = Thing { name: &it.identifier, radiance: properties.get(), set, slot };
+        let boundary = &it.boundary_condition;
+        Self { thing, geometry, boundary, indoor_shades, outdoor_shades }
+    }
+}
+
+impl<'m> Collector<'_, 'm> {
+    fn model(&mut self, model: &'m Model) -> Result<(), LoadError> {
+        for (number, room) in model.rooms.iter().enumerate() {
+            self.room(room, &format!("rooms[{number}]"))?;
+        }
+        for (number, face) in model.orphaned_faces.iter().enumerate() {
+            self.face(face, None, &format!("orphaned_faces[{number}]"))?;
+        }
+        for (number, it) in model.orphaned_apertures.iter().enumerate() {
+            let sub_face = SubFace::of_aperture(it, None, FaceType::Wall);
+            self.sub_face(&sub_face, &format!("orphaned_apertures[{number}]"))?;
+        }
+        for (number, it) in model.orphaned_doors.iter().enumerate() {
+            let sub_face = SubFace::of_door(it, None, FaceType::Wall);
+            self.sub_face(&sub_face, &format!("orphaned_doors[{number}]"))?;
+        }
+        self.shades(&model.orphaned_shades, None, Slot::Context, "orphaned_shades")?;
+        for (number, mesh) in model.shade_meshes.iter().enumerate() {
+            let place = format!("shade_meshes[{number}]");
+            let (radiance, slot) = (mesh.properties.get(), Slot::Context);
+            let thing = Thing { name: &mesh.identifier, radiance, set: None, slot };
+            self.add(thing, Shape::Mesh(&mesh.geometry), &place)?;
+        }
+        Ok(())
+    }
+
+    fn room(&mut self, room: &'m Room, place: &str) -> Result<(), LoadError> {
+        let set = room.properties.get().and_then(|radiance| radiance.modifier_set.as_ref());
+        let set = self.modifiers.set(set, place)?;
+        for (number, face) in room.faces.iter().enumerate() {
+            self.face(face, set, &format!("{place}.faces[{number}]"))?;
+        }
+        self.both_shades([&room.indoor_shades, &room.outdoor_shades], set, place)
+    }
+
+    fn face(
+        &mut self,
+        face: &'m Face,
+        set: Option<&'m ModifierSet>,
+        place: &str,
+    ) -> Result<(), LoadError> {
+        let is_inside = face.boundary_condition.is_inside();
+        let slot = match face.face_type {
+            FaceType::Wall => Slot::Wall { is_inside },
+            FaceType::Floor => Slot::Floor { is_inside },
+            FaceType::RoofCeiling => Slot::RoofCeiling { is_inside },
+            FaceType::AirBoundary => Slot::AirBoundary,
+        };
+        let own = face.properties.get().and_then(|radiance| radiance.modifier.as_ref());
+        let modifier = self.modifiers.of(own, set, slot, place)?;
+        let apertures = face.apertures.iter();
+        let apertures = apertures.map(|it| SubFace::of_aperture(it, set, face.face_type));
+        let doors = face.doors.iter().map(|it| SubFace::of_door(it, set, face.face_type));
+        let (apertures, doors): (Vec<_>, Vec<_>) = (apertures.collect(), doors.collect());
+        if self.is_first_side(&face.identifier, &face.boundary_condition, modifier, place) {
+            let material = self.material(modifier)?;
+            let sub_faces = apertures.iter().chain(&doors);
+            let cut_out = sub_faces.map(|sub_face| sub_face.geometry).collect();
+            let shape = Shape::Polygon { outline: &face.geometry, cut_out };
+            self.push(&face.identifier, material, shape, place, slot == Slot::AirBoundary);
+        }
+        for (key, sub_faces) in [("apertures", apertures), ("doors", doors)] {
+            for (number, sub_face) in sub_faces.iter().enumerate() {
+                self.sub_face(sub_face, &format!("{place}.{key}[{number}]"))?;
+            }
+        }
+        self.both_shades([&face.indoor_shades, &face.outdoor_shades], set, place)
+    }
+
+    fn sub_face(&mut self, sub_face: &SubFace<'m>, place: &str) -> Result<(), LoadError> {
+        let SubFace { thing, geometry, boundary, indoor_shades, outdoor_shades } = *sub_face;
+        let own = thing.radiance.and_then(|radiance| radiance.modifier.as_ref());
+        let modifier = self.modifiers.of(own, thing.set, thing.slot, place)?;
+        if self.is_first_side(thing.name, boundary, modifier, place) {
+            let shape = Shape::Polygon { outline: geometry, cut_out: Vec::new() };
+            self.add(thing, shape, place)?;
+        }
+        self.both_shades([indoor_shades, outdoor_shades], thing.set, place)
+    }
+
+    /// Whether the other side of this thing was not met before; the first side stands for both.
+    fn is_first_side(
+        &mut self,
+        identifier: &str,
+        boundary: &Boundary,
+        modifier: &Modifier,
+        place: &str,
+    ) -> bool {
+        let Some(other) = boundary.neighbour() else { return true };
+        match self.written.remove(identifier) {
+            Some(first) if first.identifier == other => {
+                if first.modifier != modifier.identifier {
+                    let note = "the two rooms that it is between have other modifiers for it: \
+                                that of the first one counts on both sides";
+                    self.findings.note(place, note);
+                }
+                false
+            }
+            _ => {
+                let first = FirstSide {
+                    identifier: identifier.to_owned(),
+                    modifier: modifier.identifier.clone(),
+                };
+                self.written.insert(other.to_owned(), first);
+                true
+            }
+        }
+    }
+
+    fn both_shades(
+        &mut self,
+        [indoor, outdoor]: [&'m [Shade]; 2],
+        set: Option<&'m ModifierSet>,
+        place: &str,
+    ) -> Result<(), LoadError> {
+        let key = |key: &str| format!("{place}.{key}");
+        self.shades(indoor, set, Slot::Shade { is_inside: true }, &key("indoor_shades"))?;
+        self.shades(outdoor, set, Slot::Shade { is_inside: false }, &key("outdoor_shades"))
+    }
+
+    fn shades(
+        &mut self,
+        shades: &'m [Shade],
+        set: Option<&'m ModifierSet>,
+        slot: Slot,
+        place: &str,
+    ) -> Result<(), LoadError> {
+        for (number, shade) in shades.iter().enumerate() {
+            let radiance = shade.properties.get();
+            let thing = Thing { name: &shade.identifier, radiance, set, slot };
+            let shape = Shape::Polygon { outline: &shade.geometry, cut_out: Vec::new() };
+            self.add(thing, shape, &format!("{place}[{number}]"))?;
+        }
+        Ok(())
+    }
+
+    /// Adds something that may have states.
+    fn add(&mut self, thing: Thing<'m>, shape: Shape<'m>, place: &str) -> Result<(), LoadError> {
+        let own = thing.radiance.and_then(|radiance| radiance.modifier.as_ref());
+        let modifier = self.modifiers.of(own, thing.set, thing.slot, place)?;
+        let material = match thing.radiance {
+            Some(radiance) if !radiance.states.is_empty() => {
+                self.states(thing, radiance, modifier, place)?
+            }
+            _ => self.material(modifier)?,
+        };
+        self.push(thing.name, material, shape, place, false);
+        Ok(())
+    }
+
+    /// Adds the states of a thing to its group; the material of the thing, which is that of the
+    /// group.
+    fn states(
+        &mut self,
+        thing: Thing<'m>,
+        radiance: &'m SubFaceRadiance,
+        base: &'m Modifier,
+        place: &str,
+    ) -> Result<usize, LoadError> {
+        let states: &'m List<State> = &radiance.states;
+        let mut modifiers: Vec<&'m Modifier> = Vec::new();
+        for (number, state) in states.iter().enumerate() {
+            let place = format!("{place}.properties.radiance.states[{number}]");
+            let own = state.modifier.as_ref();
+            modifiers.push(own.map_or(Ok(base), |own| self.modifiers.named(own, &place))?);
+        }
+        let group = match &radiance.dynamic_group_identifier {
+            Some(group) if states.len() > 1 => self.group(group),
+            other => {
+                if other.is_none() {
+                    let note = "states without dynamic_group_identifier: the first one counts";
+                    self.findings.note(place, note);
+                }
+                self.shades_of_state(None, &states[0], 0, place)?;
+                return self.material(modifiers[0]);
+            }
+        };
+        for (number, state) in states.iter().enumerate() {
+            self.shades_of_state(Some(group), state, number, place)?;
+        }
+        self.member(group, &modifiers, thing.name)
+    }
+
+    /// The material of what changes alike, in a group.
+    fn member(
+        &mut self,
+        group: usize,
+        modifiers: &[&Modifier],
+        name: &str,
+    ) -> Result<usize, LoadError> {
+        let identifiers = modifiers.iter().map(|it| it.identifier.clone().unwrap_or_default());
+        let key = (group, identifiers.collect());
+        if let Some(&known) = self.member_of.get(&key) {
+            return Ok(known);
+        }
+        let mut looks = Vec::new();
+        for modifier in modifiers {
+            looks.push(self.look_in_place(modifier, name)?);
+        }
+        let group_name = self.found.groups[group].name.clone();
+        let number = self.new_material(&format!("group {group_name}"), looks[0].clone());
+        self.found.groups[group].add(self.found.materials[number].0.clone(), looks);
+        self.member_of.insert(key, number);
+        Ok(number)
+    }
+
+    /// Adds the shades of one state: those of the first one are there until another comes.
+    fn shades_of_state(
+        &mut self,
+        group: Option<usize>,
+        state: &'m State,
+        number: usize,
+        place: &str,
+    ) -> Result<(), LoadError> {
+        for (which, shade) in state.shades.iter().enumerate() {
+            let place = format!("{place}.properties.radiance.states[{number}].shades[{which}]");
+            let slot = Slot::Shade { is_inside: false };
+            let modifier = self.modifiers.of(shade.modifier.as_ref(), None, slot, &place)?;
+            let shape = Shape::Polygon { outline: &shade.geometry, cut_out: Vec::new() };
+            let Some(group) = group else {
+                let material = self.material(modifier)?;
+                self.push(&shade.identifier, material, shape, &place, false);
+                continue;
+            };
+            let look = self.look_in_place(modifier, &shade.identifier)?;
+            let name = format!("group {} state {number}", self.found.groups[group].name);
+            if number == 0 {
+                let material = self.new_material(&name, look.clone());
+                let looks = vec![look, in_place(Look::Open)];
+                self.found.groups[group].add(self.found.materials[material].0.clone(), looks);
+                self.push(&shade.identifier, material, shape, &place, false);
+            } else {
+                let (state, name_of_shade) = (number, shade.identifier.as_str());
+                let (geometry, material) = (&shade.geometry, self.new_name(&name));
+                let shade =
+                    StateShade { state, name: name_of_shade, geometry, material, look, place };
+                self.found.groups[group].add_shade(shade);
+            }
+        }
+        Ok(())
+    }
+
+    /// The look of a modifier for something that stays in place.
+    fn look_in_place(&mut self, modifier: &Modifier, name: &str) -> Result<Look, LoadError> {
+        let look = look(self.file, modifier, self.findings)?;
+        match look {
+            Look::Unknown(message) => Err(LoadError::new(self.file, None, message)),
+            Look::Light(_) => {
+                self.findings.note(name, "light of a state of a group is left out");
+                Ok(in_place(look))
+            }
+            other => Ok(in_place(other)),
+        }
+    }
+
+    /// The number of the group of this name.
+    fn group(&mut self, name: &str) -> usize {
+        let groups = &mut self.found.groups;
+        groups.iter().position(|group| group.name == name).unwrap_or_else(|| {
+            groups.push(Group::new(name));
+            groups.len() - 1
+        })
+    }
+
+    /// The material of a modifier.
+    fn material(&mut self, modifier: &Modifier) -> Result<usize, LoadError> {
+        let name = modifier.identifier.as_deref().unwrap_or("unnamed modifier");
+        if let Some(&known) = self.number_of.get(name) {
+            return Ok(known);
+        }
+        let look = look(self.file, modifier, self.findings)?;
+        let number = self.new_material(name, look);
+        self.number_of.insert(name.to_owned(), number);
+        Ok(number)
+    }
+
+    fn new_material(&mut self, name: &str, look: Look) -> usize {
+        let name = self.new_name(name);
+        self.found.materials.push((name, look));
+        self.found.materials.len() - 1
+    }
+
+    /// A name for a material that no other has.
+    fn new_name(&mut self, wanted: &str) -> String {
+        let mut name = wanted.to_owned();
+        let mut number = 1;
+        while self.names.contains(&name) {
+            number += 1;
+            name = format!("{wanted} {number}");
+        }
+        self.names.insert(name.clone());
+        name
+    }
+
+    /// Adds a surface, unless it is open; what is open by itself needs no word.
+    fn push(
+        &mut self,
+        name: &'m str,
+        material: usize,
+        shape: Shape<'m>,
+        place: &str,
+        is_usually_open: bool,
+    ) {
+        let (modifier, look) = &self.found.materials[material];
+        if matches!(look, Look::Open) {
+            if !is_usually_open {
+                let note = format!("surfaces of \"{modifier}\" are left out: light passes");
+                self.findings.note(place, note);
+            }
+            return;
+        }
+        self.found.surfaces.push(Surface { name, place: place.to_owned(), material, shape });
+    }
+}
