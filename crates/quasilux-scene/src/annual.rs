@@ -14,6 +14,8 @@ pub struct YearTerms {
     pub occupancy: Occupancy,
     /// Thresholds that illuminances are compared with.
     pub thresholds: Thresholds,
+    /// By sensor, the area that each point stands for, in any unit; empty where all are alike.
+    pub areas: Vec<Vec<f64>>,
 }
 
 /// When people are there.

@@ -3,6 +3,7 @@
 mod annual;
 mod bsdf;
 mod check;
+mod import;
 mod parts;
 mod photometry;
 mod points;
@@ -13,6 +14,7 @@ mod values;
 pub(crate) use annual::AnnualArguments;
 pub(crate) use bsdf::{BsdfArguments, Incidence};
 pub(crate) use check::CheckArguments;
+pub(crate) use import::ImportArguments;
 pub(crate) use parts::{
     MergeArguments, PlanArguments, PlannedArguments, ResumeArguments, ShardArguments,
 };
@@ -73,6 +75,8 @@ pub(crate) enum Command {
     Merge(MergeArguments),
     /// Continue from a checkpoint
     Resume(ResumeArguments),
+    /// Write a project file of a Honeybee model
+    Import(ImportArguments),
     /// Print the keys of the project file, with what they take and what holds without them
     Keys(KeysArguments),
     /// Print the script with which a shell completes commands, options and names
@@ -104,7 +108,7 @@ impl Arguments {
 
 #[derive(Debug, Args)]
 pub(crate) struct RunArguments {
-    /// The project file
+    /// The project file, or a Honeybee model (.hbjson)
     pub(crate) project: PathBuf,
     #[command(flatten)]
     pub(crate) simulation: SimulationArguments,

@@ -67,6 +67,7 @@ pub fn command_line(words: impl IntoIterator<Item = OsString>) -> Exit {
         Command::Shard(arguments) => commands::shard(&arguments),
         Command::Merge(arguments) => commands::merge(&arguments),
         Command::Resume(arguments) => commands::resume(&arguments),
+        Command::Import(arguments) => commands::import(&arguments),
         Command::Keys(arguments) => commands::keys(&arguments),
         Command::Completions(arguments) => commands::completions(&arguments),
         Command::Man(arguments) => commands::man(&arguments),

@@ -62,6 +62,8 @@ pub struct AnnualReport<'a> {
     pub dimmings: Vec<Dimming>,
     /// What illuminances were compared with.
     pub thresholds: Thresholds,
+    /// By sensor, the area that each point stands for; empty where all are alike.
+    pub areas: Vec<Vec<f64>>,
     /// All points, through all sensors.
     pub points: Vec<PointSummary>,
     /// How long the sun shines on them, through all sensors, if anybody looked.
@@ -89,7 +91,11 @@ impl<'a> AnnualReport<'a> {
 
     /// What each sensor has of the year.
     pub fn summaries(&self) -> impl Iterator<Item = SensorOfYear> {
-        self.sensors().map(|of| SensorOfYear::new(of.points, self.calendar.is_of_a_year))
+        let alike: &[f64] = &[];
+        self.sensors().enumerate().map(move |(number, of)| {
+            let areas = self.areas.get(number).map_or(alike, Vec::as_slice);
+            SensorOfYear::new(of.points, areas, self.calendar.is_of_a_year)
+        })
     }
 
     /// Whether all points reached the tolerance.
@@ -117,6 +123,7 @@ impl<'a> AnnualReport<'a> {
             blinds: None,
             dimmings: Vec::new(),
             thresholds: terms.thresholds,
+            areas: terms.areas,
             points: Vec::new(),
             sun_hours: Vec::new(),
             equinox: EquinoxSheets::begin(calendar),

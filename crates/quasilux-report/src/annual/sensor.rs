@@ -47,20 +47,21 @@ const LEVELS_LX: [[f64; 2]; 3] = [[300.0, 100.0], [500.0, 300.0], [750.0, 500.0]
 const SHARES: [f64; 2] = [0.5, 0.95];
 
 impl SensorOfYear {
-    /// Of the points of a sensor, and whether their hours are those of a year.
+    /// Of the points of a sensor with the areas that they stand for, none where all are alike, and
+    /// whether their hours are those of a year.
     #[must_use]
-    pub fn new(points: &[PointSummary], is_of_a_year: bool) -> Self {
-        let autonomy = |side: Side| {
-            share(points, |point| side.take(point.measure(Measure::Autonomy)) >= AUTONOMY)
-        };
+    pub fn new(points: &[PointSummary], areas: &[f64], is_of_a_year: bool) -> Self {
+        let share = |counts: &dyn Fn(&PointSummary) -> bool| share(points, areas, counts);
+        let autonomy =
+            |side: Side| share(&|point| side.take(point.measure(Measure::Autonomy)) >= AUTONOMY);
         let sunlight = |side: Side| {
-            share(points, |point| side.take(point.measure(Measure::SunlitHours)) > SUNLIT_HOURS)
+            share(&|point| side.take(point.measure(Measure::SunlitHours)) > SUNLIT_HOURS)
         };
         let level = |side: Side| {
             let median = |point: &PointSummary| side.take(point.measure(Measure::MedianDaylight));
             let reaches = |[half, most]: &&[f64; 2]| {
                 let mut wanted = [*half, *most].into_iter().zip(SHARES);
-                let of = |(lx, wanted)| share(points, |point| median(point) >= lx) >= wanted;
+                let of = |(lx, wanted)| share(&|point| median(point) >= lx) >= wanted;
                 wanted.all(of)
             };
             LEVELS_LX.iter().take_while(reaches).count() as u8
@@ -102,7 +103,12 @@ impl Side {
     }
 }
 
-fn share(points: &[PointSummary], counts: impl Fn(&PointSummary) -> bool) -> f64 {
-    let counting = points.iter().filter(|point| counts(point)).count();
-    counting as f64 / points.len().max(1) as f64
+/// The share of the area of all points that some of them have.
+fn share(points: &[PointSummary], areas: &[f64], counts: &dyn Fn(&PointSummary) -> bool) -> f64 {
+    if areas.len() != points.len() {
+        let counting = points.iter().filter(|point| counts(point)).count();
+        return counting as f64 / points.len().max(1) as f64;
+    }
+    let counting = points.iter().zip(areas).filter(|(point, _)| counts(point));
+    counting.map(|(_, area)| area).sum::<f64>() / areas.iter().sum::<f64>()
 }

@@ -211,12 +211,19 @@ fn shares_of_points_have_bounds() {
         of([0.49, 0.02], [249.0, 5.0], [310.0, 5.0]),
         of([0.3, 0.01], [0.0, 0.0], [310.0, 5.0]),
     ];
-    let sensor = SensorOfYear::new(&points, true);
+    let sensor = SensorOfYear::new(&points, &[], true);
     assert_eq!(sensor.autonomy, ShareOfPoints { value: 0.5, low: 0.25, high: 0.75 });
     assert_eq!(sensor.sunlight, ShareOfPoints { value: 0.5, low: 0.25, high: 0.75 });
     // Half of the points have 500 lx, one of them not surely; all have 300 lx.
     assert_eq!(sensor.en17037, Some(DaylightLevel { level: 2, bounds: [1, 2] }));
-    assert_eq!(SensorOfYear::new(&points, false).en17037, None);
+    assert_eq!(SensorOfYear::new(&points, &[], false).en17037, None);
+    // Of 10 m2, 3 surely have enough light, 2 more perhaps, and 1 more perhaps not.
+    let sensor = SensorOfYear::new(&points, &[3.0, 2.0, 1.0, 4.0], true);
+    assert_eq!(sensor.autonomy, ShareOfPoints { value: 0.5, low: 0.3, high: 0.6 });
+    assert_eq!(sensor.en17037, Some(DaylightLevel { level: 2, bounds: [1, 2] }));
+    // Half of the plane lacks 500 lx where the first two points stand for less than half.
+    let sensor = SensorOfYear::new(&points, &[2.0, 2.0, 1.0, 5.0], true);
+    assert_eq!(sensor.en17037, Some(DaylightLevel { level: 1, bounds: [1, 1] }));
 }
 
 /// Occupied hours without daylight take all power, those with a part of the target a part of it,
@@ -343,7 +350,7 @@ fn a_year_without_radiation_has_no_level() {
     let nothing = point(vec![Vec::new(); 4], [0.0; 3]);
     let nothing = PointOfYear { sun_lx: vec![Vec::new(); 4], ..nothing };
     let hours = PointOfHours::new(nothing, &calendar, &Thresholds::default());
-    let sensor = SensorOfYear::new(&[hours.summary], calendar.is_of_a_year);
+    let sensor = SensorOfYear::new(&[hours.summary], &[], calendar.is_of_a_year);
     assert_eq!(sensor.en17037, Some(DaylightLevel { level: 0, bounds: [0, 3] }));
     assert_eq!((sensor.autonomy.low, sensor.autonomy.high), (0.0, 1.0));
 }

@@ -1,7 +1,7 @@
 //! The surfaces of a Honeybee model, with what they are made of.
 
 use super::FileScattering;
-use super::builder::{Look as FileLook, MeshBuilder};
+use super::builder::{Look as FileLook, MeshBuilder, TriangleError};
 use super::cut::HoleCutter;
 use crate::honeybee::{
     Face3D, Findings, Look, Mesh3D, Model, Point, Shape, Surface, Surfaces, surfaces,
@@ -9,6 +9,9 @@ use crate::honeybee::{
 use crate::project::{Project, UpAxis};
 use crate::{LoadError, Rgb, Warning};
 use glam::DVec3;
+
+/// Coordinates beyond it are far beyond what geometry may have in any unit, and far from overflow.
+const MAX_COORDINATE: f64 = 1e15;
 
 /// Reads a model into `builder`, in its own unit.
 pub(super) fn read(
@@ -39,7 +42,7 @@ pub(super) fn read(
 fn describe(number: u32, look: Look, builder: &mut MeshBuilder, warnings: &mut Vec<Warning>) {
     let scattering = match look {
         Look::Surface(bsdf) => FileScattering::Described(bsdf),
-        Look::Sheet { xml, up } => FileScattering::Sheet { xml, up },
+        Look::Sheet { name, xml, up } => FileScattering::Sheet { name, xml, up },
         Look::Unknown(refusal) => FileScattering::Unknown(refusal),
         Look::Light(_) => {
             let look = FileLook { reflectance: Rgb::BLACK, emits: true, is_clear: false };
@@ -108,9 +111,17 @@ impl Reader<'_> {
         }
         let holes = outline.holes.iter().chain(cut_out.iter().map(|it| &it.boundary));
         let holes: Vec<Vec<DVec3>> = holes.map(|points| positions(points)).collect();
-        let left = self.cutter.cut(&positions(&outline.boundary), &holes).map_err(|message| {
-            LoadError::new(self.builder.file(), None, format!("{place}: {message}"))
-        })?;
+        let outline = positions(&outline.boundary);
+        let refuse = |message: String| LoadError::new(self.builder.file(), None, message);
+        let is_far = |corner: &DVec3| corner.abs().max_element() > MAX_COORDINATE;
+        if outline.iter().chain(holes.iter().flatten()).any(is_far) {
+            return Err(refuse(TriangleError::NotFinite.message(place)));
+        }
+        let left = self.cutter.cut(&outline, &holes);
+        let left = left.map_err(|message| refuse(format!("{place}: {message}")))?;
+        if left.area == 0.0 && left.expected_area == 0.0 && holes.is_empty() {
+            self.findings.note(place, "a polygon without area is left out");
+        }
         if !left.is_as_expected() {
             let note = "its holes, apertures and doors lie over one another or beyond its edges: \
                         what they cover is cut out once";

@@ -64,9 +64,11 @@ impl FileMaterial {
 /// What a geometry file says of how a material scatters light.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum FileScattering {
-    Described(Bsdf),
+    Described(Arc<Bsdf>),
     /// By the tables of an XML text, whose `y` axis points along `up`.
     Sheet {
+        /// A name among the sheets of the file.
+        name: Arc<str>,
         xml: Arc<str>,
         up: DVec3,
     },

@@ -28,7 +28,9 @@ pub(super) fn grey(eta: f64, transmissivity: f64) -> Pane {
         let (from, apart) = DEGREES_APART[usize::from(degrees >= DEGREES_APART[1].0)];
         (degrees - from).is_multiple_of(apart)
     });
-    let angles: Vec<f64> = degrees.map(|degrees| f64::from(degrees) / 90.0 * FRAC_PI_2).collect();
+    let angle =
+        |degrees: u32| if degrees == 90 { FRAC_PI_2 } else { f64::from(degrees).to_radians() };
+    let angles: Vec<f64> = degrees.map(angle).collect();
     let table = |share: fn(Shares) -> f64| {
         let node = |&theta_rad: &f64| AngularNode {
             theta_rad,

@@ -78,8 +78,8 @@ impl<'m> Group<'m> {
 /// shines in some states alone.
 pub(super) fn in_place(look: Look) -> Look {
     match look {
-        Look::Open => Look::Surface(invisible()),
-        Look::Light(_) => Look::Surface(Bsdf::Diffuse(Diffuse { reflectance: crate::Rgb::BLACK })),
+        Look::Open => invisible().into(),
+        Look::Light(_) => Bsdf::Diffuse(Diffuse { reflectance: crate::Rgb::BLACK }).into(),
         other => other,
     }
 }

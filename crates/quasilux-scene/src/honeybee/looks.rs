@@ -24,15 +24,21 @@ const USUAL_UP: DVec3 = DVec3::new(0.01, 0.01, 1.0);
 #[derive(Clone, Debug)]
 pub(crate) enum Look {
     /// A surface.
-    Surface(Bsdf),
-    /// A measured sheet: the text of its XML file, and where its tables point upward.
-    Sheet { xml: Arc<str>, up: DVec3 },
+    Surface(Arc<Bsdf>),
+    /// A measured sheet: its modifier, the text of its XML file, and where its tables point upward.
+    Sheet { name: Arc<str>, xml: Arc<str>, up: DVec3 },
     /// A black surface that shines with this luminance in cd/m2 to its front.
     Light(f64),
     /// Nothing at all.
     Open,
     /// What quasilux has nothing for, in the words of a refusal.
     Unknown(String),
+}
+
+impl From<Bsdf> for Look {
+    fn from(bsdf: Bsdf) -> Self {
+        Self::Surface(Arc::new(bsdf))
+    }
 }
 
 /// The refusal of a number.
@@ -90,7 +96,7 @@ pub(super) fn look(
         Some("Metal") => metal(&read, modifier, colour()?, &place, findings)?,
         Some("Trans") => trans(&read, modifier, colour()?, &place, findings)?,
         Some("Glass") => glass_look(&read, modifier, &place, findings)?,
-        Some("Mirror") => Look::Surface(Bsdf::Mirror(Mirror { reflectance: colour()? })),
+        Some("Mirror") => Look::from(Bsdf::Mirror(Mirror { reflectance: colour()? })),
         Some("BSDF" | "aBSDF" | "ABSDF") => sheet(&read, modifier, &place, findings)?,
         Some("Light" | "Glow") => light(&read, modifier, &place, findings)?,
         Some("Void") => Look::Open,
@@ -113,7 +119,7 @@ fn plastic(
     let specularity = read.share("specularity", modifier.specularity)?;
     let roughness = read.share("roughness", modifier.roughness)?;
     if specularity == 0.0 {
-        return Ok(Look::Surface(Bsdf::Diffuse(Diffuse { reflectance })));
+        return Ok(Look::from(Bsdf::Diffuse(Diffuse { reflectance })));
     }
     let note = "its highlight follows Fresnel's equations, near Radiance's and not the same";
     findings.note(place, note);
@@ -121,7 +127,7 @@ fn plastic(
     let root = specularity.sqrt();
     let eta = ((1.0 + root) / (1.0 - root)).clamp(1.0 + 1e-9, 5.0);
     let alpha = roughness.max(MIN_ALPHA);
-    Ok(Look::Surface(Bsdf::Plastic(Plastic { reflectance, eta, alpha })))
+    Ok(Look::from(Bsdf::Plastic(Plastic { reflectance, eta, alpha })))
 }
 
 fn metal(
@@ -133,7 +139,7 @@ fn metal(
 ) -> Result<Look, LoadError> {
     let specularity = read.share("specularity", modifier.specularity)?;
     let roughness = read.share("roughness", modifier.roughness)?;
-    Ok(Look::Surface(if specularity == 0.0 {
+    Ok(Look::from(if specularity == 0.0 {
         Bsdf::Diffuse(Diffuse { reflectance })
     } else if roughness == 0.0 && specularity == 1.0 {
         Bsdf::Mirror(Mirror { reflectance })
@@ -161,7 +167,7 @@ fn trans(
             return Ok(Look::Open);
         }
         let [through, back] = [passed, specularity].map(AngularTable::constant);
-        return Ok(Look::Surface(Bsdf::Pane(Pane::measured(through, back))));
+        return Ok(Look::from(Bsdf::Pane(Pane::measured(through, back))));
     }
     if specularity > 0.0 || transmitted * straight > 0.0 {
         let note = "light that Radiance mirrors or lets straight through it is scattered in all \
@@ -170,7 +176,7 @@ fn trans(
     }
     let reflectance = rest * (1.0 - transmitted) + Rgb::grey(specularity);
     let transmittance = rest * transmitted;
-    Ok(Look::Surface(Bsdf::Translucent(Translucent { reflectance, transmittance })))
+    Ok(Look::from(Bsdf::Translucent(Translucent { reflectance, transmittance })))
 }
 
 fn glass_look(
@@ -193,7 +199,7 @@ fn glass_look(
         findings.note(place, note);
         glass::coloured(eta, transmissivity)
     };
-    Ok(Look::Surface(Bsdf::Pane(pane)))
+    Ok(Look::from(Bsdf::Pane(pane)))
 }
 
 fn sheet(
@@ -217,7 +223,7 @@ fn sheet(
         let message = format!("{place}: up_orientation has no length; expected a direction");
         return Err(LoadError::new(read.file, None, message));
     }
-    Ok(Look::Sheet { xml: xml.as_str().into(), up })
+    Ok(Look::Sheet { name: read.name.into(), xml: xml.as_str().into(), up })
 }
 
 fn light(
@@ -245,7 +251,7 @@ fn light(
     let luminance: f64 =
         radiance.iter().zip(RADIANCE_WEIGHTS).map(|(&it, weight)| it * weight).sum();
     if reach < 0.0 || luminance == 0.0 {
-        return Ok(Look::Surface(Bsdf::Diffuse(Diffuse { reflectance: Rgb::BLACK })));
+        return Ok(Look::from(Bsdf::Diffuse(Diffuse { reflectance: Rgb::BLACK })));
     }
     Ok(Look::Light(EFFICACY_LM_W * luminance))
 }

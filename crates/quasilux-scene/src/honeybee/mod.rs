@@ -15,6 +15,7 @@ mod groups;
 mod looks;
 mod model;
 mod modifiers;
+mod names;
 mod radiance;
 mod surfaces;
 
@@ -23,5 +24,5 @@ pub(crate) use findings::Findings;
 pub(crate) use groups::{Group, GroupState, StateShade};
 pub(crate) use looks::Look;
 pub(crate) use model::{Face3D, Mesh3D, Model};
-pub(crate) use radiance::{Luminaire, SensorGrid, View};
+pub(crate) use radiance::{Luminaire, LuminaireInstance, SensorGrid, View};
 pub(crate) use surfaces::{Shape, Surface, Surfaces, surfaces};

@@ -56,7 +56,6 @@ enum Units {
 
 #[derive(Debug, Deserialize)]
 pub(crate) struct Room {
-    pub(crate) identifier: String,
     pub(crate) faces: Vec<Face>,
     #[serde(default)]
     pub(crate) indoor_shades: List<Shade>,

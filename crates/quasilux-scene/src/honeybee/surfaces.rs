@@ -1,14 +1,14 @@
 //! Which surfaces a model has, and what they are made of.
 
-use super::document::List;
 use super::findings::Findings;
 use super::groups::{Group, StateShade, in_place};
 use super::looks::{Look, look};
 use super::model::{Aperture, Boundary, Door, Face, Face3D, FaceType, Mesh3D, Model, Room, Shade};
 use super::modifiers::{Modifiers, Slot};
+use super::names::{Names, plain};
 use super::radiance::{Modifier, ModifierSet, State, SubFaceRadiance};
 use crate::LoadError;
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 
 /// All surfaces, with materials and groups.
 #[derive(Debug)]
@@ -52,13 +52,22 @@ pub(crate) fn surfaces<'m>(
         findings,
         number_of: HashMap::new(),
         member_of: HashMap::new(),
-        names: HashSet::new(),
+        groups: HashMap::new(),
+        looks: HashMap::new(),
+        names: Names::default(),
         written: HashMap::new(),
         found: Surfaces { surfaces: Vec::new(), materials: Vec::new(), groups: Vec::new() },
     };
     collector.model(model)?;
     Ok(collector.found)
 }
+
+/// Most states of a thing: those that a group of blinds has, and the first one.
+const MAX_STATES: usize = 17;
+/// Most modifiers: each takes up to some kB.
+const MAX_MATERIALS: usize = 100_000;
+/// What a modifier without identifier is called.
+const UNNAMED: &str = "unnamed modifier";
 
 /// The side of a pair that was met first.
 struct FirstSide {
@@ -74,8 +83,12 @@ struct Collector<'a, 'm> {
     number_of: HashMap<String, usize>,
     /// Materials by what changes alike: the group, and the modifiers of all states.
     member_of: HashMap<(usize, Vec<String>), usize>,
+    /// Groups by name.
+    groups: HashMap<&'m str, usize>,
+    /// What modifiers become, by identifier.
+    looks: HashMap<String, Look>,
     /// Of all materials.
-    names: HashSet<String>,
+    names: Names,
     /// By the identifier of the other side.
     written: HashMap<String, FirstSide>,
     found: Surfaces<'m>,
@@ -285,8 +298,12 @@ impl<'m> Collector<'_, 'm> {
         base: &'m Modifier,
         place: &str,
     ) -> Result<usize, LoadError> {
-        let states: &'m List<State> = &radiance.states;
+        let states: &'m [State] = &radiance.states;
         let mut modifiers: Vec<&'m Modifier> = Vec::new();
+        if states.len() > MAX_STATES {
+            self.findings.note(place, format!("states beyond {MAX_STATES} are left out"));
+        }
+        let states = &states[..states.len().min(MAX_STATES)];
         for (number, state) in states.iter().enumerate() {
             let place = format!("{place}.properties.radiance.states[{number}]");
             let own = state.modifier.as_ref();
@@ -326,7 +343,7 @@ impl<'m> Collector<'_, 'm> {
             looks.push(self.look_in_place(modifier, name)?);
         }
         let group_name = self.found.groups[group].name.clone();
-        let number = self.new_material(&format!("group {group_name}"), looks[0].clone());
+        let number = self.new_material(&format!("group {group_name}"), looks[0].clone())?;
         self.found.groups[group].add(self.found.materials[number].0.clone(), looks);
         self.member_of.insert(key, number);
         Ok(number)
@@ -353,13 +370,13 @@ impl<'m> Collector<'_, 'm> {
             let look = self.look_in_place(modifier, &shade.identifier)?;
             let name = format!("group {} state {number}", self.found.groups[group].name);
             if number == 0 {
-                let material = self.new_material(&name, look.clone());
+                let material = self.new_material(&name, look.clone())?;
                 let looks = vec![look, in_place(Look::Open)];
                 self.found.groups[group].add(self.found.materials[material].0.clone(), looks);
                 self.push(&shade.identifier, material, shape, &place, false);
             } else {
                 let (state, name_of_shade) = (number, shade.identifier.as_str());
-                let (geometry, material) = (&shade.geometry, self.new_name(&name));
+                let (geometry, material) = (&shade.geometry, self.names.new_name(&plain(&name)));
                 let shade =
                     StateShade { state, name: name_of_shade, geometry, material, look, place };
                 self.found.groups[group].add_shade(shade);
@@ -370,7 +387,7 @@ impl<'m> Collector<'_, 'm> {
 
     /// The look of a modifier for something that stays in place.
     fn look_in_place(&mut self, modifier: &Modifier, name: &str) -> Result<Look, LoadError> {
-        let look = look(self.file, modifier, self.findings)?;
+        let look = self.look(modifier)?;
         match look {
             Look::Unknown(message) => Err(LoadError::new(self.file, None, message)),
             Look::Light(_) => {
@@ -382,42 +399,45 @@ impl<'m> Collector<'_, 'm> {
     }
 
     /// The number of the group of this name.
-    fn group(&mut self, name: &str) -> usize {
+    fn group(&mut self, name: &'m str) -> usize {
         let groups = &mut self.found.groups;
-        groups.iter().position(|group| group.name == name).unwrap_or_else(|| {
+        *self.groups.entry(name).or_insert_with(|| {
             groups.push(Group::new(name));
             groups.len() - 1
         })
     }
 
+    /// What a modifier becomes.
+    fn look(&mut self, modifier: &Modifier) -> Result<Look, LoadError> {
+        let name = modifier.identifier.as_deref().unwrap_or(UNNAMED);
+        if let Some(known) = self.looks.get(name) {
+            return Ok(known.clone());
+        }
+        let look = look(self.file, modifier, self.findings)?;
+        self.looks.insert(name.to_owned(), look.clone());
+        Ok(look)
+    }
+
     /// The material of a modifier.
     fn material(&mut self, modifier: &Modifier) -> Result<usize, LoadError> {
-        let name = modifier.identifier.as_deref().unwrap_or("unnamed modifier");
+        let name = modifier.identifier.as_deref().unwrap_or(UNNAMED);
         if let Some(&known) = self.number_of.get(name) {
             return Ok(known);
         }
-        let look = look(self.file, modifier, self.findings)?;
-        let number = self.new_material(name, look);
+        let look = self.look(modifier)?;
+        let number = self.new_material(name, look)?;
         self.number_of.insert(name.to_owned(), number);
         Ok(number)
     }
 
-    fn new_material(&mut self, name: &str, look: Look) -> usize {
-        let name = self.new_name(name);
-        self.found.materials.push((name, look));
-        self.found.materials.len() - 1
-    }
-
-    /// A name for a material that no other has.
-    fn new_name(&mut self, wanted: &str) -> String {
-        let mut name = wanted.to_owned();
-        let mut number = 1;
-        while self.names.contains(&name) {
-            number += 1;
-            name = format!("{wanted} {number}");
+    fn new_material(&mut self, name: &str, look: Look) -> Result<usize, LoadError> {
+        let number = self.found.materials.len();
+        if number >= MAX_MATERIALS {
+            let message = format!("more than {MAX_MATERIALS} modifiers in use; expected fewer");
+            return Err(LoadError::new(self.file, None, message));
         }
-        self.names.insert(name.clone());
-        name
+        self.found.materials.push((self.names.new_name(name), look));
+        Ok(number)
     }
 
     /// Adds a surface, unless it is open; what is open by itself needs no word.

@@ -33,5 +33,6 @@ pub(super) fn terms(
             Occupancy::Schedule { is_there: numbers.into_iter().map(|it| it == 1).collect() }
         }
     };
-    Ok(YearTerms { occupancy, thresholds: *thresholds })
+    let areas = project.sensors.iter().map(|entry| entry.areas.clone()).collect();
+    Ok(YearTerms { occupancy, thresholds: *thresholds, areas })
 }

@@ -74,12 +74,12 @@ fn of_file(
 ) -> Result<Bsdf, LoadError> {
     match &material.scattering {
         None => Ok(grey()),
-        Some(FileScattering::Described(bsdf)) => Ok(bsdf.clone()),
+        Some(FileScattering::Described(bsdf)) => Ok((**bsdf).clone()),
         Some(FileScattering::Unknown(refusal)) => {
             Err(LoadError::new(&material.file, None, refusal))
         }
-        Some(FileScattering::Sheet { xml, up }) => {
-            let name = format!("{}#{}", material.file, material.name);
+        Some(FileScattering::Sheet { name, xml, up }) => {
+            let name = format!("{}#{name}", material.file);
             let sheet = measured.read_text(&name, xml, *up, warnings)?;
             let up = Spanned { value: *up, place: measured.scene_place() };
             measured.must_lie_across(Some(&up), &geometry.mesh, number)?;

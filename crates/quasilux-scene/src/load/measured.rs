@@ -59,7 +59,10 @@ impl<'a> MeasuredFiles<'a> {
         up: DVec3,
         warnings: &mut Vec<Warning>,
     ) -> Result<Measured, LoadError> {
-        let table = self.table(name, text.as_bytes(), warnings)?;
+        let table = match self.tables.get(name) {
+            Some(known) => Arc::clone(known),
+            None => self.table(name, text.as_bytes(), warnings)?,
+        };
         Ok(Measured::new(table, Some(up)))
     }
 

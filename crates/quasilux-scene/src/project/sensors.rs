@@ -54,7 +54,7 @@ pub(super) const GRID_KEYS: [Key; 11] = [
         "The illuminance that is wanted: pictures show its line",
     ),
 ];
-pub(super) const POINTS_KEYS: [Key; 4] = [
+pub(super) const POINTS_KEYS: [Key; 5] = [
     NAME,
     KIND,
     required("points", "`[[x, y, z], ...]` in m", "Where the points are"),
@@ -62,6 +62,13 @@ pub(super) const POINTS_KEYS: [Key; 4] = [
         "normals",
         "directions `[[x, y, z], ...]`",
         "One for each point: the side from which light counts",
+    ),
+    optional(
+        "areas",
+        "numbers above 0",
+        "all alike",
+        "One for each point: the area that it stands for, in any unit; shares of the area over a \
+         year (sDA, ASE) count points by it",
     ),
 ];
 
@@ -74,6 +81,8 @@ pub(crate) struct SensorEntry {
     pub(crate) place: Position,
     /// The place of each point of a `points` sensor; empty for a grid.
     pub(crate) point_places: Vec<Position>,
+    /// The area that each point of a `points` sensor stands for; empty where all are alike.
+    pub(crate) areas: Vec<f64>,
     pub(crate) sensor: Sensor,
 }
 
@@ -88,11 +97,13 @@ pub(super) fn read(root: &Section<'_>, names: &mut Names) -> Result<Vec<SensorEn
         let place = section.place();
         entries.push(if kind == "grid" {
             let shape = SensorShape::Grid(grid(&section, &mut cells)?);
-            SensorEntry { place, point_places: Vec::new(), sensor: Sensor { name, shape } }
+            let sensor = Sensor { name, shape };
+            SensorEntry { place, point_places: Vec::new(), areas: Vec::new(), sensor }
         } else {
             let PlacedPoints { points, places: point_places } = points(&section)?;
+            let areas = areas(&section, points.len())?;
             let shape = SensorShape::Points(points);
-            SensorEntry { place, point_places, sensor: Sensor { name, shape } }
+            SensorEntry { place, point_places, areas, sensor: Sensor { name, shape } }
         });
     }
     Ok(entries)
@@ -180,6 +191,19 @@ fn normal(value: Value<'_>, plane_normal: DVec3) -> Result<DVec3, LoadError> {
 fn direction(value: Value<'_>) -> Result<DVec3, LoadError> {
     let expected = "a direction [x, y, z] with a length";
     value.vector(expected)?.try_normalize().ok_or_else(|| value.unexpected(expected))
+}
+
+/// The areas of so many points, if they are given.
+fn areas(section: &Section<'_>, points: usize) -> Result<Vec<f64>, LoadError> {
+    let Some(list) = section.get("areas") else { return Ok(Vec::new()) };
+    let expected = "areas above 0, at most 1e12, one for each point";
+    let areas = list.array(expected)?;
+    if areas.len() != points {
+        let given = areas.len();
+        return Err(list.error(format!("{points} points but {given} areas; expected {expected}")));
+    }
+    let area = |value: &Value<'_>| value.number(expected, |area| area > 0.0 && area <= 1e12);
+    areas.iter().map(area).collect()
 }
 
 /// Sensor points, and where the file has them.

@@ -3,7 +3,7 @@
 use crate::support::{MapFiles, PROJECT, load_text};
 use quasilux_scene::{BlindsControl, BlindsGroup, Bsdf, ElectricLight, LoadError, Loaded, Scene};
 
-const WEA: &str = "place Here\nlatitude 37.72\nlongitude 122.22\ntime_zone 120\n\
+pub(crate) const WEA: &str = "place Here\nlatitude 37.72\nlongitude 122.22\ntime_zone 120\n\
     site_elevation 2\nweather_data_file_units 1\n3 20 11.5 700 90\n3 20 12.5 650 120\n";
 const SLATS: &str = "usemtl slat\nv 0.2 0.2 0.5\nv 0.8 0.2 0.5\nv 0.8 0.4 0.5\nf 1 2 3\n";
 

@@ -37,7 +37,7 @@ const WORDS: [&str; 24] = [
     "//",
 ];
 
-fn mutated(bytes: &[u8], stream: &mut Stream) -> Vec<u8> {
+pub(crate) fn mutated(bytes: &[u8], stream: &mut Stream) -> Vec<u8> {
     let mut bytes = bytes.to_vec();
     for _ in 0..1 + stream.below(4) {
         let at = stream.below(bytes.len());

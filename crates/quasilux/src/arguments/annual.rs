@@ -9,8 +9,11 @@ use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 pub(crate) struct AnnualArguments {
-    /// The project file, with [weather]
+    /// The project file, with [weather], or a Honeybee model (.hbjson), with --weather
     pub(crate) project: PathBuf,
+    /// The weather file of a Honeybee model, EPW or WEA
+    #[arg(long, value_name = "FILE")]
+    pub(crate) weather: Option<PathBuf>,
     /// Wanted root mean square over hours of half-width over value, like 1% or 0.01
     #[arg(long, value_name = "SHARE", value_parser = share, default_value = "2%")]
     pub(crate) rel_tol: f64,

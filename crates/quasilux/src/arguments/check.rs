@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 pub(crate) struct CheckArguments {
-    /// The project file
+    /// The project file, or a Honeybee model (.hbjson)
     pub(crate) project: PathBuf,
     /// Folder for the plan, plan.png and plan.svg [default: out/NAME, NAME being the project
     /// file's]

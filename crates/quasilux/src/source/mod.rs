@@ -2,17 +2,19 @@
 //!
 //! A project on disk has all of it in the folder of its file. One that a program makes may have
 //! files and arrays in memory; these go before files of the same name in its folder. A
-//! [bundle](bundle) has everything.
+//! [bundle](bundle) has everything, and a [model](model) of another program becomes one.
 
 mod arrays;
 pub(crate) mod bundle;
+mod model;
 
 pub use arrays::Triangles;
+pub(crate) use model::{folder_of, import, is_model};
 
 use crate::digest::{SceneFile, SceneIdentity, sha256_hex};
 use crate::exit::CliError;
 use crate::input;
-use quasilux_scene::{FileKind, Files, Loaded, TriangleArrays, load};
+use quasilux_scene::{FileKind, Files, Loaded, TriangleArrays, Warning, load};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::io;
@@ -30,6 +32,8 @@ pub struct Source {
     folder: Option<PathBuf>,
     files: BTreeMap<String, Vec<u8>>,
     triangles: BTreeMap<String, Triangles>,
+    /// What the model that it was made of has, and it has not.
+    findings: Vec<Warning>,
     /// Of the identity that it has to have.
     expected_sha256: Option<String>,
 }
@@ -51,6 +55,7 @@ impl Source {
             folder: None,
             files: BTreeMap::new(),
             triangles: BTreeMap::new(),
+            findings: Vec::new(),
             expected_sha256: None,
         }
     }
@@ -81,6 +86,7 @@ impl Source {
         let refuse = |what: &dyn std::fmt::Display| CliError::in_file(&name, None, what);
         let source = match bundle::read(path).map_err(|error| refuse(&error))? {
             Some(bytes) => bundle::unpacked(&bytes).map_err(|what| refuse(&what))?,
+            None if is_model(path) => return Self::of_model(path, None),
             None => {
                 let text = input::read(path, input::MAX_PROJECT_BYTES);
                 let text = text.map_err(|error| refuse(&error))?;
@@ -100,7 +106,8 @@ impl Source {
     /// Loads the scene.
     pub(crate) fn load(&self) -> Result<Identified, CliError> {
         let reader = Reader { source: self, read: RefCell::default() };
-        let loaded = load(&self.name, &self.text, &reader)?;
+        let mut loaded = load(&self.name, &self.text, &reader)?;
+        loaded.warnings.splice(0..0, self.findings.iter().cloned());
         let own_name = Path::new(&self.name).file_name().unwrap_or_default();
         let own_name = own_name.to_string_lossy().into_owned();
         let own = SceneFile { path: own_name, sha256: Some(sha256_hex(&self.text)) };

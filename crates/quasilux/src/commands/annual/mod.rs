@@ -12,8 +12,10 @@ use super::{Folder, count};
 use crate::arguments::AnnualArguments;
 use crate::checkpoint::{Heading, RunPaths};
 use crate::exit::{CliError, Exit};
+use crate::interrupt;
+use crate::project::{self, Project};
+use crate::source::{Source, is_model};
 use crate::year_file::{YearHeading, YearWriter};
-use crate::{interrupt, project};
 pub(crate) use in_memory::year_in_memory;
 pub use in_memory::{FinishedYear, YearListener};
 use kept::Keeper;
@@ -26,7 +28,7 @@ use year::Year;
 pub(crate) fn annual(arguments: &AnnualArguments) -> Result<Exit, CliError> {
     interrupt::listen()?;
     let file = &arguments.project;
-    let project = project::open(file)?;
+    let project = open(arguments)?;
     let settings = project::annual_settings(&project, arguments)?;
     let threads = count(arguments.threads);
     let year = Year::new(&project, settings, arguments.occupied.as_ref(), threads)?;
@@ -57,6 +59,24 @@ pub(crate) fn annual(arguments: &AnnualArguments) -> Result<Exit, CliError> {
             sink.take(&block)
         })
     })
+}
+
+/// The project, or that of a model in its weather.
+fn open(arguments: &AnnualArguments) -> Result<Project, CliError> {
+    let AnnualArguments { project: file, weather, checkpoint, .. } = arguments;
+    let refuse = |message: &str| Err(CliError::in_file(file.display(), None, message));
+    match (is_model(file), weather) {
+        (false, None) => project::open(file),
+        (false, Some(_)) => {
+            refuse("--weather goes with a Honeybee model; name the file in [weather]")
+        }
+        (true, None) => refuse("a year of a model needs its weather; add --weather FILE"),
+        (true, Some(_)) if checkpoint.is_some() => refuse(
+            "--checkpoint goes with a project file; make one of the model and its weather with \
+             `quasilux import`",
+        ),
+        (true, Some(weather)) => Project::load(Source::of_model(file, Some(weather))?),
+    }
 }
 
 /// The points that are asked for.

@@ -1,0 +1,89 @@
+//! Dynamic groups as groups of blinds: state 0 is open, the others are their states.
+
+use super::Writer;
+use super::text::quoted;
+use crate::honeybee::{Face3D, Group, GroupState, StateShade, Surfaces};
+use std::fmt::Write;
+
+/// Most groups and states that a project has.
+const MAX_GROUPS: usize = 64;
+const MAX_STATES: usize = 16;
+
+impl Writer<'_> {
+    /// Writes the groups, if there is a year for them to move in.
+    pub(super) fn states(&mut self, surfaces: &Surfaces<'_>) {
+        if self.terms.weather.is_none() {
+            for group in &surfaces.groups {
+                let note = "dynamic groups stay in state 0 without the weather of a year";
+                self.findings.note(&format!("group \"{}\"", group.name), note);
+            }
+            return;
+        }
+        for (number, group) in surfaces.groups.iter().enumerate() {
+            if number < MAX_GROUPS {
+                self.group(group);
+            } else {
+                let note = format!("groups beyond the first {MAX_GROUPS} stay in state 0");
+                self.findings.note(&format!("group \"{}\"", group.name), note);
+            }
+        }
+        if !surfaces.groups.is_empty() {
+            let note = "states follow one another as the sun shines on the sensors; `control` and \
+                        `schedule` of [[blinds]] say otherwise";
+            self.findings.note("dynamic groups", note);
+        }
+    }
+
+    fn group(&mut self, group: &Group<'_>) {
+        self.text.section("[[blinds]]");
+        self.text.key("name", &quoted(if group.name.is_empty() { "group" } else { &group.name }));
+        for (number, state) in group.states() {
+            if number > MAX_STATES {
+                let note = format!("states beyond the first {MAX_STATES} are left out");
+                self.findings.note(&format!("group \"{}\"", group.name), note);
+                break;
+            }
+            self.state(group, number, &state);
+        }
+    }
+
+    fn state(&mut self, group: &Group<'_>, number: usize, state: &GroupState<'_, '_>) {
+        self.text.section("[[blinds.states]]");
+        self.text.key("name", &quoted(&format!("state {number}")));
+        if !state.shades.is_empty() {
+            let obj = self.obj(&state.shades);
+            let name = format!("{}-{number}", group.name);
+            let file = self.file(&name, ".obj", obj.into_bytes());
+            self.text.key("geometry", &format!("[{}]", quoted(&file)));
+        }
+        let shades = state.shades.iter().map(|shade| (shade.material.as_str(), &shade.look));
+        for (name, look) in state.looks.iter().copied().chain(shades) {
+            self.text.section(&format!("[blinds.states.materials.{}]", quoted(name)));
+            self.material(look);
+        }
+    }
+
+    /// Shades as an OBJ file, in the unit of the model.
+    fn obj(&mut self, shades: &[&StateShade<'_>]) -> String {
+        let mut obj = String::new();
+        let mut vertices = 0;
+        for shade in shades {
+            let StateShade { name, geometry: Face3D { boundary, holes }, material, .. } = shade;
+            if !holes.is_empty() {
+                self.findings.note(&shade.place, "holes in the shade of a state are left out");
+            }
+            let name = name.replace(char::is_control, " ");
+            let material = material.replace(char::is_control, " ");
+            writeln!(obj, "o {name}\nusemtl {material}").expect("strings grow");
+            for point in boundary {
+                let [x, y, z] = point.0.to_array();
+                writeln!(obj, "v {x:?} {y:?} {z:?}").expect("strings grow");
+            }
+            let corners: Vec<String> =
+                (1..=boundary.len()).map(|corner| (vertices + corner).to_string()).collect();
+            writeln!(obj, "f {}", corners.join(" ")).expect("strings grow");
+            vertices += boundary.len();
+        }
+        obj
+    }
+}
