@@ -113,7 +113,11 @@ const SECTIONS: [&str; 16] = [
 
 const UNITS: &str = "`\"m\"`, `\"cm\"`, `\"mm\"`, `\"in\"` or `\"ft\"`";
 const SCENE_KEYS: [Key; 5] = [
-    required("geometry", "list of file names", "OBJ, glTF or GLB files, at least one, each once"),
+    required(
+        "geometry",
+        "list of file names",
+        "OBJ, glTF or GLB files or Honeybee models (`.hbjson`), at least one, each once",
+    ),
     optional(
         "up",
         "`\"y\"` or `\"z\"`",
@@ -121,7 +125,7 @@ const SCENE_KEYS: [Key; 5] = [
         "The axis that points up in the geometry files; with `\"y\"` their (x, y, z) becomes (x, \
          -z, y)",
     ),
-    optional("units", UNITS, "`\"m\"`", "Of the geometry files"),
+    optional("units", UNITS, "`\"m\"`", "Of the geometry files; Honeybee models say theirs"),
     optional("position_units", UNITS, "`\"m\"`", "Of positions and lengths in the project file"),
     optional(
         "maintenance_factor",
@@ -247,7 +251,8 @@ struct SceneSection {
 }
 
 fn scene_section(root: &Section<'_>) -> Result<SceneSection, LoadError> {
-    let expected = "[\"room.obj\"]: OBJ, glTF or GLB files, relative to the project file";
+    let expected = "[\"room.obj\"]: OBJ, glTF, GLB or HBJSON files, relative to the project \
+                    file";
     let section = root.table("scene")?.ok_or_else(|| {
         root.error(format!("no [scene] section; expected [scene] with geometry = {expected}"))
     })?;
@@ -282,7 +287,7 @@ fn geometry_files(list: &Value<'_>, expected: &str) -> Result<Vec<Spanned<String
     }
     let mut geometry: Vec<Spanned<String>> = Vec::new();
     for file in files {
-        let name = file.string("the name of an OBJ, glTF or GLB file")?;
+        let name = file.string("the name of an OBJ, glTF, GLB or HBJSON file")?;
         if geometry.iter().any(|earlier| earlier.value == name) {
             return Err(file.error(format!("\"{name}\" is listed twice; list each file once")));
         }

@@ -30,7 +30,7 @@ pub(crate) const PROJECT_CASES: &[Case] = &[
         "[\"room.obj\"]",
         "[\"room.blend\"]",
         2,
-        "expected a name that ends in .obj, .gltf or .glb",
+        "expected a name that ends in .obj, .gltf, .glb or .hbjson",
     ),
     case("[\"room.obj\"]", "[\"room.obj\"]\nup = \"x\"", 3, "expected \"y\" or \"z\""),
     case("[\"room.obj\"]", "[\"room.obj\"", 4, "not valid TOML"),

@@ -20,6 +20,7 @@ mod experiment;
 mod explain;
 mod fingerprint;
 mod glazing;
+mod honeybee;
 mod kept;
 mod kernels;
 mod keys;

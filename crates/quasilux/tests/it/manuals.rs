@@ -2,7 +2,7 @@
 
 use crate::support::Folder;
 
-const COMMANDS: [&str; 16] = [
+const COMMANDS: [&str; 17] = [
     "run",
     "annual",
     "check",
@@ -16,6 +16,7 @@ const COMMANDS: [&str; 16] = [
     "shard",
     "merge",
     "resume",
+    "import",
     "keys",
     "completions",
     "man",

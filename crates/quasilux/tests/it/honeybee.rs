@@ -1,0 +1,148 @@
+//! Honeybee models: imported, and given to commands as they are.
+
+use crate::support::{Folder, illuminances, number, parsed};
+use serde_json::{Value, json};
+
+/// Type C, absolute: 1000 cd in all directions of the lower half.
+const LAMP: &str = "IESNA:LM-63-2002\n[TEST] none\n[MANUFAC] none\nTILT=NONE\n1 -1 1 2 1 1 2 0 0 0\n\
+    1 1 10\n0 90\n0\n1000 1000\n";
+
+/// Some hours of two days: illuminances of sun and sky.
+const WEATHER: &str = "place Here\nlatitude 37.72\nlongitude 122.22\ntime_zone 120\n\
+    site_elevation 2\nweather_data_file_units 3\n3 20 10.5 30000 9000\n3 20 11.5 0 9000\n\
+    3 20 12.5 60000 12000\n3 21 11.5 0 8000\n3 21 12.5 0 10000\n";
+
+/// A room of 13 ft x 10 ft x 8 ft with black surfaces, a window and a table of two points.
+fn model() -> Value {
+    let [x, y, z] = [13, 10, 8];
+    let face = |name: &str, kind: &str, corners: [[i32; 3]; 4]| {
+        json!({"identifier": name, "face_type": kind, "geometry": {"boundary": corners},
+               "boundary_condition": {"type": "Outdoors"}, "apertures": []})
+    };
+    let mut south = face("south", "Wall", [[0, 0, 0], [x, 0, 0], [x, 0, z], [0, 0, z]]);
+    south["apertures"] = json!([{"identifier": "window", "geometry":
+        {"boundary": [[2, 0, 3], [11, 0, 3], [11, 0, z], [2, 0, z]]}}]);
+    let faces = [
+        face("floor", "Floor", [[0, 0, 0], [0, y, 0], [x, y, 0], [x, 0, 0]]),
+        face("ceiling", "RoofCeiling", [[0, 0, z], [x, 0, z], [x, y, z], [0, y, z]]),
+        south,
+        face("north", "Wall", [[x, y, 0], [0, y, 0], [0, y, z], [x, y, z]]),
+        face("west", "Wall", [[0, y, 0], [0, 0, 0], [0, 0, z], [0, y, z]]),
+        face("east", "Wall", [[x, 0, 0], [x, y, 0], [x, y, z], [x, 0, z]]),
+    ];
+    let black = json!({"exterior_modifier": "black"});
+    json!({"type": "Model", "units": "Feet", "rooms": [{"identifier": "room", "faces": faces}],
+    "properties": {"radiance": {
+        "global_modifier_set": {"type": "GlobalModifierSet",
+            "modifiers": [{"type": "Plastic", "identifier": "black"}],
+            "wall_set": black, "floor_set": black, "roof_ceiling_set": black},
+        "sensor_grids": [{"identifier": "table", "sensors": [
+            {"pos": [6, 5, 2.5], "dir": [0, 0, 1]}, {"pos": [9, 4, 2.5], "dir": [0, 0, 1]}]}],
+    }}})
+}
+
+fn with_lamp() -> Value {
+    let mut model = model();
+    model["properties"]["radiance"]["luminaires"] = json!([{
+        "type": "Luminaire", "identifier": "lamp", "ies_content": LAMP, "light_loss_factor": 0.8,
+        "luminaire_zone": {"instances": [
+            {"point": {"x": 6, "y": 5, "z": 7.5}, "spin": 10, "tilt": 0, "rotation": 20}]}}]);
+    model["rooms"][0]["faces"][2]["apertures"] = json!([]);
+    model
+}
+
+fn folder(name: &str, model: &Value) -> Folder {
+    let folder = Folder::new(name);
+    folder.write("model.hbjson", model.to_string());
+    folder.write("site.wea", WEATHER);
+    folder
+}
+
+/// I cos / d^2 of one lamp in a black room, in feet that become metres.
+#[test]
+fn a_lamp_in_a_black_room_gives_the_closed_form() {
+    let folder = folder("honeybee_lamp", &with_lamp());
+    let document = parsed(&folder.document("model.hbjson", "direct", &[], 0));
+    let found = illuminances(&document);
+    let expected = [[0.0, 0.0, 5.0], [3.0, 1.0, 5.0]].map(|way| {
+        let squared: f64 = way.iter().map(|edge| edge * edge).sum::<f64>() * 0.3048 * 0.3048;
+        let cosine = way[2] * 0.3048 / squared.sqrt();
+        800.0 * cosine / squared
+    });
+    for ((lx, half_width), expected) in found.iter().zip(expected) {
+        let error = (lx - expected).abs();
+        assert!(error <= half_width + 1e-9 * expected, "{lx} +- {half_width}, not {expected}");
+    }
+    // The project that is written gives the same.
+    let written = folder.quasilux(&["import", "model.hbjson", "--out", "of/project.toml"]);
+    assert_eq!((written.code, written.stderr.as_str()), (Some(0), ""), "{}", written.stderr);
+    assert!(folder.read("of/project.toml").contains("geometry = [\"../model.hbjson\"]"));
+    assert_eq!(folder.read("of/project-lamp.ies"), LAMP);
+    let again = parsed(&folder.document("of/project.toml", "again", &[], 0));
+    assert_eq!(illuminances(&again), found);
+}
+
+#[test]
+fn a_model_with_windows_has_a_daylight_factor_and_a_year() {
+    let folder = folder("honeybee_year", &model());
+    let checked = folder.quasilux(&["check", "model.hbjson"]);
+    assert_eq!(checked.code, Some(0), "{}{}", checked.stdout, checked.stderr);
+    let more = ["--rel-tol", "10%"];
+    let document = parsed(&folder.document("model.hbjson", "factor", &more, 0));
+    assert!(illuminances(&document).iter().all(|(lx, _)| (50.0..4000.0).contains(lx)));
+    let year = ["annual", "model.hbjson", "--weather", "site.wea", "--out", "year", "--rel-tol"];
+    let done = folder.quasilux(&[&year[..], &["10%"]].concat());
+    assert_eq!(done.code, Some(0), "{}", done.stderr);
+    assert!(done.stdout.contains("table"), "{}", done.stdout);
+    let import = ["import", "model.hbjson", "--out", "p.toml", "--weather", "site.wea"];
+    assert_eq!(folder.quasilux(&import).code, Some(0));
+    let done = folder.quasilux(&["annual", "p.toml", "--out", "again", "--rel-tol", "10%"]);
+    assert_eq!(done.code, Some(0), "{}", done.stderr);
+    assert_eq!(folder.read("again/hours.csv"), folder.read("year/hours.csv"));
+}
+
+/// The areas of a mesh weigh shares of the area.
+#[test]
+fn meshes_weigh_the_area_with_enough_light() {
+    let mut model = model();
+    let grid = &mut model["properties"]["radiance"]["sensor_grids"][0];
+    // One point in the room and one in the open.
+    grid["sensors"][1]["pos"] = json!([30, 5, 2.5]);
+    grid["mesh"] = json!({"vertices": [[0, 0, 0], [1, 0, 0], [0, 1, 0], [6, 0, 0]],
+                          "faces": [[0, 1, 2], [0, 3, 2]]});
+    model["rooms"][0]["faces"][2]["apertures"] = json!([]);
+    let folder = folder("honeybee_areas", &model);
+    let year = ["annual", "model.hbjson", "--weather", "site.wea", "--json", "--rel-tol", "10%"];
+    let done = folder.quasilux(&year);
+    assert_eq!(done.code, Some(0), "{}", done.stderr);
+    let share = number(&parsed(&done.stdout), "/sensors/0/summary/sda/value");
+    assert!((share - 6.0 / 7.0).abs() < 1e-12, "{share}");
+}
+
+#[test]
+fn what_goes_wrong_is_said() {
+    let folder = folder("honeybee_wrong", &model());
+    let refuses = |arguments: &[&str], text: &str| {
+        let run = folder.quasilux(arguments);
+        assert!(run.code == Some(2) && run.stderr.contains(text), "{arguments:?}: {}", run.stderr);
+        assert_eq!(run.stderr.lines().count(), 1, "{}", run.stderr);
+    };
+    refuses(&["annual", "model.hbjson"], "a year of a model needs its weather; add --weather FILE");
+    let year = ["annual", "model.hbjson", "--weather", "site.wea", "--checkpoint", "c"];
+    refuses(&year, "--checkpoint goes with a project file");
+    refuses(&["annual", "a.toml", "--weather", "site.wea"], "--weather goes with a Honeybee model");
+    refuses(&["import", "model.skp", "--out", "a.toml"], "expected a name that ends in .hbjson");
+    refuses(&["import", "none.hbjson", "--out", "a.toml"], "none.hbjson: ");
+    refuses(&["import", "model.hbjson", "--out", "site.wea"], "site.wea: is there already");
+    folder.write("empty.hbjson", "{\"type\": \"Model\", \"rooms\": []}");
+    refuses(&["run", "empty.hbjson"], "empty.hbjson: no sensor grid, and no view");
+    folder.write("broken.hbjson", "{\"type\": \"Model\", \"rooms\": [{}]}");
+    refuses(&["run", "broken.hbjson"], "broken.hbjson:1:31: rooms[0]: missing field `faces`");
+    // A project without sensors is written, and lacks them.
+    let mut bare = model();
+    bare["properties"] = json!({});
+    folder.write("bare.hbjson", bare.to_string());
+    let written = folder.quasilux(&["import", "bare.hbjson", "--out", "bare.toml"]);
+    assert_eq!(written.code, Some(0));
+    assert!(written.stderr.contains("add [[sensors]] or [[cameras]]"), "{}", written.stderr);
+}
