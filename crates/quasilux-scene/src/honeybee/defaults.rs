@@ -4,8 +4,8 @@
 //! Windows have a transmittance of 0.64 and 0.88 at normal incidence; models hold the share that
 //! passes the body of the glass once, which makes them of it (refractive index 1.52).
 
-use super::modifiers::Slot;
 use super::radiance::Modifier;
+use super::slots::Slot;
 use std::sync::LazyLock;
 
 /// Reflectance or transmissivity of each by its identifier.

@@ -101,17 +101,14 @@ mod tests {
             let clear = shares(INDEX, 1.0, theta_rad);
             assert!((clear.transmitted + clear.reflected - 1.0).abs() < 1e-12);
             let (mut transmitted, mut reflected) = (0.0, 0.0);
-            let refracted = (theta_rad.sin() / INDEX).asin();
-            let passed = 0.7_f64.powf(1.0 / refracted.cos());
-            for polarisation in [0, 1] {
-                // Fresnel's equations by angles; limits at the normal.
-                let r = if degrees == 0.0 {
-                    (0.52_f64 / 2.52).powi(2)
-                } else if polarisation == 0 {
-                    ((theta_rad - refracted).sin() / (theta_rad + refracted).sin()).powi(2)
-                } else {
-                    ((theta_rad - refracted).tan() / (theta_rad + refracted).tan()).powi(2)
-                };
+            let refracted = libm::asin(libm::sin(theta_rad) / INDEX);
+            let passed = libm::pow(0.7, 1.0 / libm::cos(refracted));
+            for polarisation in [libm::sin, libm::tan] {
+                // Fresnel's equations by angles, with their limit at the normal.
+                let ratio =
+                    polarisation(theta_rad - refracted) / polarisation(theta_rad + refracted);
+                let amplitude = if degrees == 0.0 { 0.52 / 2.52 } else { ratio };
+                let r = amplitude * amplitude;
                 let mut inside = 0.5 * (1.0 - r);
                 reflected += 0.5 * r;
                 for bounce in 0..2000 {

@@ -4,7 +4,7 @@
 //! state is what materials are in it, and which shades there are beside.
 
 use super::looks::{Look, invisible};
-use super::model::Face3D;
+use super::shapes::Face3D;
 use crate::Bsdf;
 use crate::bsdf::Diffuse;
 

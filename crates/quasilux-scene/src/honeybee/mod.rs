@@ -17,12 +17,15 @@ mod model;
 mod modifiers;
 mod names;
 mod radiance;
+mod shapes;
+mod slots;
 mod surfaces;
 
 pub(crate) use document::Point;
 pub(crate) use findings::Findings;
 pub(crate) use groups::{Group, GroupState, StateShade};
 pub(crate) use looks::Look;
-pub(crate) use model::{Face3D, Mesh3D, Model};
+pub(crate) use model::Model;
 pub(crate) use radiance::{Luminaire, LuminaireInstance, SensorGrid, View};
+pub(crate) use shapes::{Face3D, Mesh3D};
 pub(crate) use surfaces::{Shape, Surface, Surfaces, surfaces};

@@ -1,7 +1,8 @@
 //! The document: what of a model has to do with light.
 
-use super::document::{self, Facet, List, Point};
+use super::document::{self, List};
 use super::radiance::{FaceRadiance, ModelRadiance, RoomRadiance, ShadeRadiance, SubFaceRadiance};
+use super::shapes::{Face3D, Mesh3D};
 use crate::{LengthUnit, LoadError};
 use serde::Deserialize;
 
@@ -159,21 +160,6 @@ pub(crate) struct ShadeMesh {
     pub(crate) geometry: Mesh3D,
     #[serde(default)]
     pub(crate) properties: Properties<ShadeRadiance>,
-}
-
-/// A flat polygon.
-#[derive(Debug, Deserialize)]
-pub(crate) struct Face3D {
-    pub(crate) boundary: Vec<Point>,
-    #[serde(default)]
-    pub(crate) holes: List<Vec<Point>>,
-}
-
-/// Triangles and quadrangles of shared vertices.
-#[derive(Debug, Deserialize)]
-pub(crate) struct Mesh3D {
-    pub(crate) vertices: Vec<Point>,
-    pub(crate) faces: Vec<Facet>,
 }
 
 impl Model {

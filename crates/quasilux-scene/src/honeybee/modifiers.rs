@@ -4,25 +4,9 @@
 use super::defaults;
 use super::model::Model;
 use super::radiance::{ModelRadiance, Modifier, ModifierSet, Named, Sides};
+use super::slots::Slot;
 use crate::LoadError;
 use std::collections::HashMap;
-
-/// What a modifier is for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Slot {
-    Wall { is_inside: bool },
-    Floor { is_inside: bool },
-    RoofCeiling { is_inside: bool },
-    AirBoundary,
-    Window,
-    Skylight,
-    Operable,
-    InteriorWindow,
-    Door { is_inside: bool, is_glass: bool },
-    OverheadDoor,
-    Shade { is_inside: bool },
-    Context,
-}
 
 /// All modifiers and sets of a model.
 pub(super) struct Modifiers<'m> {

@@ -1,7 +1,7 @@
 //! The document: `properties.radiance`, what is said of light.
 
 use super::document::{List, Point};
-use super::model::{Face3D, Mesh3D};
+use super::shapes::{Face3D, Mesh3D};
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{IgnoredAny, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};

@@ -3,10 +3,12 @@
 use super::findings::Findings;
 use super::groups::{Group, StateShade, in_place};
 use super::looks::{Look, look};
-use super::model::{Aperture, Boundary, Door, Face, Face3D, FaceType, Mesh3D, Model, Room, Shade};
-use super::modifiers::{Modifiers, Slot};
+use super::model::{Aperture, Boundary, Door, Face, FaceType, Model, Room, Shade};
+use super::modifiers::Modifiers;
 use super::names::{Names, plain};
 use super::radiance::{Modifier, ModifierSet, State, SubFaceRadiance};
+use super::shapes::{Face3D, Mesh3D};
+use super::slots::Slot;
 use crate::LoadError;
 use std::collections::HashMap;
 

@@ -12,7 +12,8 @@ impl Writer<'_> {
         match look {
             Look::Surface(bsdf) => self.bsdf(bsdf),
             Look::Sheet { name: of, xml, up } => {
-                let file = self.file(of, ".xml", xml.as_bytes().to_vec());
+                let known = self.sheets.get(&**of).cloned();
+                let file = known.unwrap_or_else(|| self.sheet(of, xml));
                 self.kind("bsdf");
                 self.text.key("file", &quoted(&file));
                 self.text.key("up", &vector(*up));
@@ -20,6 +21,13 @@ impl Writer<'_> {
             // None of them is in a state.
             Look::Light(_) | Look::Open | Look::Unknown(_) => self.text.key("reflectance", "0"),
         }
+    }
+
+    /// Adds the file of a sheet.
+    fn sheet(&mut self, name: &str, xml: &str) -> String {
+        let file = self.file(name, ".xml", xml.as_bytes().to_vec());
+        self.sheets.insert(name.to_owned(), file.clone());
+        file
     }
 
     fn kind(&mut self, kind: &str) {

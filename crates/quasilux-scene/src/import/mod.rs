@@ -16,6 +16,7 @@ mod views;
 use crate::honeybee::{Findings, Model, Surfaces, surfaces};
 use crate::{LengthUnit, LoadError, Warning};
 use names::Names;
+use std::collections::HashMap;
 use text::{Text, quoted};
 
 /// A project that was made of a model.
@@ -61,6 +62,7 @@ pub fn import_honeybee(bytes: &[u8], terms: &ImportTerms<'_>) -> Result<Imported
         names: Names::default(),
         file_names: Names::default(),
         files: Vec::new(),
+        sheets: HashMap::new(),
         findings: Findings::default(),
     };
     writer.head(&model, &surfaces);
@@ -86,6 +88,8 @@ struct Writer<'w> {
     names: Names,
     file_names: Names,
     files: Vec<(String, Vec<u8>)>,
+    /// Files of measured sheets by the names of their modifiers.
+    sheets: HashMap<String, String>,
     findings: Findings,
 }
 

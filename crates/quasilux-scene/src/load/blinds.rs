@@ -1,5 +1,6 @@
 //! The rooms that blinds make of a scene.
 
+use super::measured::Sources;
 use super::schedule::Scheduled;
 use super::{Built, build};
 use crate::annual::{Blinds, BlindsControl, BlindsGroup, BlindsPosition};
@@ -10,17 +11,17 @@ use crate::{Files, LoadError, Spanned, Warning};
 pub(super) fn hang(
     project: &Project,
     intervals: usize,
-    files: &dyn Files,
+    sources: &mut Sources<'_>,
     warnings: &mut Vec<Warning>,
 ) -> Result<Option<Blinds>, LoadError> {
     let mut groups = Vec::new();
     for entry in &project.blinds {
-        let control = control(project, entry, intervals, files)?;
+        let control = control(project, entry, intervals, sources.files)?;
         let mut positions = Vec::new();
         for position in &entry.positions {
             let mut again = Vec::new();
             let project = with_blinds(project, position);
-            let Built { scene: room, .. } = build(&project, files, &mut again)?;
+            let Built { scene: room, .. } = build(&project, sources, &mut again)?;
             again.retain(|warning| !warnings.contains(warning));
             warnings.extend(again);
             positions.push(BlindsPosition { name: position.name.clone(), room });

@@ -1,11 +1,11 @@
 //! The material of each name: what the project file says, then what geometry files say.
 
 use super::glazing::GlazingFiles;
-use super::measured::MeasuredFiles;
+use super::measured::{MeasuredFiles, Sources};
 use crate::bsdf::Diffuse;
 use crate::geometry::{DEFAULT_MATERIAL, FileMaterial, FileScattering, Geometry};
 use crate::project::{LightEntry, MaterialEntry, Project, Scattering};
-use crate::{Bsdf, Files, LoadError, Material, Rgb, Spanned, Warning};
+use crate::{Bsdf, LoadError, Material, Rgb, Spanned, Warning};
 use std::collections::{HashMap, HashSet};
 
 /// Reflectance of materials that neither the project nor a geometry file defines.
@@ -15,7 +15,7 @@ const DEFAULT_REFLECTANCE: f64 = 0.5;
 pub(super) fn resolve(
     project: &Project,
     geometry: &Geometry,
-    files: &dyn Files,
+    sources: &mut Sources<'_>,
     warnings: &mut Vec<Warning>,
 ) -> Result<Vec<Material>, LoadError> {
     expect_used(project, geometry)?;
@@ -25,8 +25,8 @@ pub(super) fn resolve(
     let default = entry_of(DEFAULT_MATERIAL);
     let mut triangles = vec![0_u64; geometry.materials.len()];
     geometry.mesh.material_of.iter().for_each(|&material| triangles[material as usize] += 1);
-    let mut measured = MeasuredFiles::new(project, files);
-    let mut glazings = GlazingFiles::new(project, files);
+    let mut glazings = GlazingFiles::new(project, sources.files);
+    let mut measured = MeasuredFiles::new(project, sources);
     let mut materials = Vec::new();
     for ((number, material), count) in (0..).zip(&geometry.materials).zip(triangles) {
         let mut bsdf_of =

@@ -14,16 +14,29 @@ use std::sync::Arc;
 /// Facets must lean at least this far, in rad, from being square to where a table points up.
 const MIN_LEAN_RAD: f64 = 1e-6;
 
-/// The files that a project names, as far as they were read.
-pub(super) struct MeasuredFiles<'a> {
-    project: &'a Project,
-    files: &'a dyn Files,
+/// The files of a project, and what was made of them for one of its rooms and serves the others.
+pub(super) struct Sources<'f> {
+    pub(super) files: &'f dyn Files,
+    /// Measured surfaces by the names of their files.
     tables: HashMap<String, Arc<MeasuredBsdf>>,
 }
 
+impl<'f> Sources<'f> {
+    pub(super) fn new(files: &'f dyn Files) -> Self {
+        Self { files, tables: HashMap::new() }
+    }
+}
+
+/// The files that a project names.
+pub(super) struct MeasuredFiles<'a> {
+    project: &'a Project,
+    files: &'a dyn Files,
+    tables: &'a mut HashMap<String, Arc<MeasuredBsdf>>,
+}
+
 impl<'a> MeasuredFiles<'a> {
-    pub(super) fn new(project: &'a Project, files: &'a dyn Files) -> Self {
-        Self { project, files, tables: HashMap::new() }
+    pub(super) fn new(project: &'a Project, sources: &'a mut Sources<'_>) -> Self {
+        Self { project, files: sources.files, tables: &mut sources.tables }
     }
 
     /// The sheet of a file; passes warnings on when it is read first.

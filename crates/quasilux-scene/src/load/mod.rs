@@ -12,6 +12,7 @@ mod photometry;
 mod places;
 mod schedule;
 
+use measured::Sources;
 pub use places::Places;
 
 use crate::annual::{Blinds, ElectricLight, YearTerms};
@@ -54,10 +55,11 @@ pub fn load(
 ) -> Result<Loaded, LoadError> {
     let project = Project::parse(project_name, project_bytes)?;
     let mut warnings = Vec::new();
-    let Built { scene, places, facts } = build(&project, files, &mut warnings)?;
+    let mut sources = Sources::new(files);
+    let Built { scene, places, facts } = build(&project, &mut sources, &mut warnings)?;
     let annual = annual::terms(&project, scene.weather.as_ref(), files)?;
     let intervals = scene.weather.as_ref().map_or(0, |weather| weather.hours.len());
-    let blinds = blinds::hang(&project, intervals, files, &mut warnings)?;
+    let blinds = blinds::hang(&project, intervals, &mut sources, &mut warnings)?;
     let electric_light = electric_light(&project)?;
     let Project { simulation, maintenance_factor, .. } = project;
     Ok(Loaded {
@@ -83,11 +85,12 @@ struct Built {
 /// The scene of a project, its blinds open.
 fn build(
     project: &Project,
-    files: &dyn Files,
+    sources: &mut Sources<'_>,
     warnings: &mut Vec<Warning>,
 ) -> Result<Built, LoadError> {
+    let files = sources.files;
     let geometry = geometry::read(project, files, warnings)?;
-    let materials = materials::resolve(project, &geometry, files, warnings)?;
+    let materials = materials::resolve(project, &geometry, sources, warnings)?;
     let lights = lights::place(project, &geometry, files, warnings)?;
     let sensors = project.sensors.iter().map(|entry| entry.sensor.clone()).collect();
     let cameras = project.cameras.iter().map(|entry| entry.camera.clone()).collect();

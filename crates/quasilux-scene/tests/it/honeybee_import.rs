@@ -190,15 +190,15 @@ fn an_asymmetric_luminaire_shines_where_radiance_lets_it() {
         {
             let to = DVec3::from_array(target) - DVec3::new(2.0, 1.5, 2.3);
             let back = |v: [f64; 2], degrees: f64| {
-                let (sin, cos) = (-degrees).to_radians().sin_cos();
+                let (sin, cos) = libm::sincos((-degrees).to_radians());
                 [v[0] * cos - v[1] * sin, v[0] * sin + v[1] * cos]
             };
             let [x, y] = back([to.x, to.y], rotation);
             // About y, z turns toward x.
             let [z, x] = back([to.z, x], tilt);
             let [x, y] = back([x, y], spin);
-            let c_deg = y.atan2(x).to_degrees();
-            let gamma_deg = (-z / to.length()).acos().to_degrees();
+            let c_deg = libm::atan2(y, x).to_degrees();
+            let gamma_deg = libm::acos(-z / to.length()).to_degrees();
             let expected = 1.5 * candela(c_deg, gamma_deg);
             let expected = if gamma_deg > 90.0 { 0.0 } else { expected };
             let found = lamp.intensity_cd(to.normalize());

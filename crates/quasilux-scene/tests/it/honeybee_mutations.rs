@@ -124,7 +124,7 @@ fn large_models_end() {
     // Corners of a star, and windows of it that are stars, too.
     let star = |n: usize| -> Vec<[f64; 3]> {
         let corner = |i: usize| {
-            let (sin, cos) = (i as f64 * 3.0).sin_cos();
+            let (sin, cos) = libm::sincos(i as f64 * 3.0);
             [5.0 * cos, 0.0, 5.0 * sin]
         };
         (0..n).map(corner).collect()
