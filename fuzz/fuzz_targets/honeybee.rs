@@ -31,9 +31,11 @@ fn samples() -> Seeds {
         {"identifier": "f", "face_type": "Wall", "boundary_condition": {"type": "Surface",
         "boundary_condition_objects": ["g", "b"]}, "geometry": {"boundary":
         [[0, 0, 0], [4, 0, 0], [4, 0, 3], [0, 0, 3]], "holes": [[[1, 0, 1], [2, 0, 1], [2, 0, 2]]]},
-        "apertures": [{"identifier": "w", "geometry": {"boundary": [[2, 0, 1], [3, 0, 1], [3, 0, 2]]},
+        "apertures": [{"identifier": "w",
+        "geometry": {"boundary": [[2, 0, 1], [3, 0, 1], [3, 0, 2]]},
         "properties": {"radiance": {"dynamic_group_identifier": "d", "states": [{"modifier": "m"},
-        {"shades": [{"identifier": "s", "geometry": {"boundary": [[0, 1, 0], [1, 1, 0], [1, 1, 1]]}}]}
+        {"shades": [{"identifier": "s",
+        "geometry": {"boundary": [[0, 1, 0], [1, 1, 0], [1, 1, 1]]}}]}
         ]}}}]}], "properties": {"radiance": {"modifier_set": "set"}}}],
         "shade_meshes": [{"identifier": "x", "geometry": {"vertices": [[0, 0, 0], [1, 0, 0],
         [1, 1, 0], [0, 1, 0]], "faces": [[0, 1, 2, 3]]}}],
@@ -52,7 +54,8 @@ fn examine(bytes: &[u8]) {
         Ok(imported) => imported,
         Err(error) => return assert!(!error.to_string().contains('\n'), "{error}"),
     };
-    let mut files: HashMap<String, Vec<u8>> = imported.files.into_iter().collect();
+    let files = imported.files.into_iter().map(|file| (file.name, file.bytes));
+    let mut files: HashMap<String, Vec<u8>> = files.collect();
     files.insert("m.hbjson".to_owned(), bytes.to_vec());
     files.insert("a.wea".to_owned(), WEATHER.into());
     if let Err(error) = load("m.toml", imported.text.as_bytes(), &Named(files)) {

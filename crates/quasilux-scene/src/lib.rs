@@ -37,7 +37,7 @@ pub use environment::{Environment, Opening, SkyFacts, SkyModel, Sun};
 pub use error::{LoadError, Spanned, Warning};
 pub use files::{FileKind, Files, TriangleArrays, too_large};
 pub use glam::DVec3;
-pub use import::{ImportTerms, Imported, import_honeybee};
+pub use import::{ImportTerms, Imported, ImportedFile, import_honeybee};
 pub use light::Light;
 pub use load::{Loaded, Places, load};
 pub use mesh::Mesh;

@@ -40,6 +40,7 @@ pub(crate) struct StateShade<'m> {
 /// A state behind the first.
 #[derive(Debug)]
 pub(crate) struct GroupState<'g, 'm> {
+    pub(crate) number: usize,
     /// What materials are in it, by name.
     pub(crate) looks: Vec<(&'g str, &'g Look)>,
     pub(crate) shades: Vec<&'g StateShade<'m>>,
@@ -62,14 +63,14 @@ impl<'m> Group<'m> {
         self.shades.push(shade);
     }
 
-    /// The states behind the first, with their numbers.
-    pub(crate) fn states(&self) -> impl Iterator<Item = (usize, GroupState<'_, 'm>)> {
-        (1..self.states).map(|state| {
-            let look = |member: &'_ Member| member.looks.len().min(state + 1) - 1;
+    /// The states behind the first.
+    pub(crate) fn states(&self) -> impl Iterator<Item = GroupState<'_, 'm>> {
+        (1..self.states).map(|number| {
+            let look = |member: &'_ Member| member.looks.len().min(number + 1) - 1;
             let looks = self.members.iter();
             let looks = looks.map(|it| (it.material.as_str(), &it.looks[look(it)])).collect();
-            let shades = self.shades.iter().filter(|shade| shade.state == state).collect();
-            (state, GroupState { looks, shades })
+            let shades = self.shades.iter().filter(|shade| shade.state == number).collect();
+            GroupState { number, looks, shades }
         })
     }
 }

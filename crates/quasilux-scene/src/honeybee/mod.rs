@@ -2,10 +2,9 @@
 //! luminaires and dynamic groups.
 //!
 //! [`Model`] is the file as the honeybee-schema of Ladybug Tools has it (2026), with the keys that
-//! say something of light; [`Model::parse`] refuses what has the wrong type. [`surfaces`] says which
-//! polygons there are and what they are made of: a face with its apertures and doors cut out, the
-//! two faces between rooms once. What becomes of all that is up to
-//! [`geometry`](crate::geometry) and [`import`](crate::import).
+//! say something of light; [`Model::parse`] refuses what has the wrong type. [`surfaces()`] says
+//! which polygons there are and what they are made of: a face with its apertures and doors cut out,
+//! the two faces between rooms once. What becomes of all that is up to `geometry` and `import`.
 
 mod defaults;
 mod document;

@@ -2,7 +2,7 @@
 
 use super::Writer;
 use super::text::{number, quoted, vector};
-use crate::bsdf::{AngularTable, Conductor, Mirror, Pane, Plastic, Translucent};
+use crate::bsdf::{AngularTable, Conductor, Diffuse, Mirror, Pane, Plastic, Translucent};
 use crate::honeybee::Look;
 use crate::{Bsdf, Rgb};
 
@@ -34,47 +34,50 @@ impl Writer<'_> {
         self.text.key("kind", &quoted(kind));
     }
 
+    fn share(&mut self, key: &str, rgb: Rgb) {
+        let [r, g, b] = rgb.0.map(number);
+        let value = if rgb.is_grey() { r } else { format!("[{r}, {g}, {b}]") };
+        self.text.key(key, &value);
+    }
+
     fn bsdf(&mut self, bsdf: &Bsdf) {
         self.kind(bsdf.kind());
-        let (reflectance, more) = match bsdf {
-            Bsdf::Diffuse(it) => (Some(it.reflectance), Vec::new()),
-            Bsdf::Mirror(Mirror { reflectance }) => (Some(*reflectance), Vec::new()),
+        match bsdf {
+            Bsdf::Diffuse(Diffuse { reflectance }) | Bsdf::Mirror(Mirror { reflectance }) => {
+                self.share("reflectance", *reflectance);
+            }
             Bsdf::Translucent(Translucent { reflectance, transmittance }) => {
-                (Some(*reflectance), vec![("transmittance", shares(*transmittance))])
+                self.share("reflectance", *reflectance);
+                self.share("transmittance", *transmittance);
             }
             Bsdf::Conductor(Conductor { reflectance, alpha }) => {
-                (Some(*reflectance), vec![("alpha", number(*alpha))])
+                self.share("reflectance", *reflectance);
+                self.text.key("alpha", &number(*alpha));
             }
             Bsdf::Plastic(Plastic { reflectance, eta, alpha }) => {
-                let more = vec![("eta", number(*eta)), ("alpha", number(*alpha))];
-                (Some(*reflectance), more)
+                self.share("reflectance", *reflectance);
+                self.text.key("eta", &number(*eta));
+                self.text.key("alpha", &number(*alpha));
             }
-            Bsdf::Pane(pane) => (None, of_pane(pane)),
-            // Models have none of them, sheets have another look.
-            Bsdf::Dielectric(_) | Bsdf::Measured(_) => (None, Vec::new()),
-        };
-        if let Some(reflectance) = reflectance {
-            self.text.key("reflectance", &shares(reflectance));
-        }
-        more.iter().for_each(|(key, value)| self.text.key(key, value));
-    }
-}
-
-fn of_pane(pane: &Pane) -> Vec<(&'static str, String)> {
-    match pane {
-        Pane::Clear { eta } => vec![("eta", number(*eta))],
-        Pane::Tinted { eta, transmittance } => {
-            vec![("eta", number(*eta)), ("transmittance", shares(*transmittance))]
-        }
-        Pane::Measured { transmittance, front_reflectance, .. } => {
-            vec![("transmittance", table(transmittance)), ("reflectance", table(front_reflectance))]
+            Bsdf::Pane(pane) => self.pane(pane),
+            // Models have none of them; sheets have another look.
+            Bsdf::Dielectric(_) | Bsdf::Measured(_) => {}
         }
     }
-}
 
-fn shares(rgb: Rgb) -> String {
-    let [r, g, b] = rgb.0.map(number);
-    if rgb.is_grey() { r } else { format!("[{r}, {g}, {b}]") }
+    fn pane(&mut self, pane: &Pane) {
+        match pane {
+            Pane::Clear { eta } => self.text.key("eta", &number(*eta)),
+            Pane::Tinted { eta, transmittance } => {
+                self.text.key("eta", &number(*eta));
+                self.share("transmittance", *transmittance);
+            }
+            Pane::Measured { transmittance, front_reflectance, .. } => {
+                self.text.key("transmittance", &table(transmittance));
+                self.text.key("reflectance", &table(front_reflectance));
+            }
+        }
+    }
 }
 
 fn table(table: &AngularTable) -> String {

@@ -24,13 +24,22 @@ use text::{Text, quoted};
 pub struct Imported {
     /// The project file.
     pub text: String,
-    /// Files that it names and that were part of the model, by name.
-    pub files: Vec<(String, Vec<u8>)>,
+    /// Files that it names and that were part of the model.
+    pub files: Vec<ImportedFile>,
     /// What of the model the project does not have, or has otherwise. What geometry and materials
     /// lack is told when the project is loaded.
     pub findings: Vec<Warning>,
     /// Whether there is something to measure: a sensor or a camera.
     pub measures: bool,
+}
+
+/// A file that was part of a model.
+#[derive(Clone, Debug)]
+pub struct ImportedFile {
+    /// Its name, as the project has it.
+    pub name: String,
+    /// Everything that is in it.
+    pub bytes: Vec<u8>,
 }
 
 /// How a model becomes a project.
@@ -87,7 +96,7 @@ struct Writer<'w> {
     /// Of sensors and cameras.
     names: Names,
     file_names: Names,
-    files: Vec<(String, Vec<u8>)>,
+    files: Vec<ImportedFile>,
     /// Files of measured sheets by the names of their modifiers.
     sheets: HashMap<String, String>,
     findings: Findings,
@@ -125,7 +134,7 @@ impl Writer<'_> {
     fn file(&mut self, name: &str, ending: &str, bytes: Vec<u8>) -> String {
         let name = self.file_names.new_name(&format!("{}-{name}", self.terms.stem), &[ending]);
         let name = format!("{name}{ending}");
-        self.files.push((name.clone(), bytes));
+        self.files.push(ImportedFile { name: name.clone(), bytes });
         name
     }
 }

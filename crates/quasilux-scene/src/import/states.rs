@@ -37,17 +37,18 @@ impl Writer<'_> {
     fn group(&mut self, group: &Group<'_>) {
         self.text.section("[[blinds]]");
         self.text.key("name", &quoted(if group.name.is_empty() { "group" } else { &group.name }));
-        for (number, state) in group.states() {
-            if number > MAX_STATES {
+        for state in group.states() {
+            if state.number > MAX_STATES {
                 let note = format!("states beyond the first {MAX_STATES} are left out");
                 self.findings.note(&format!("group \"{}\"", group.name), note);
                 break;
             }
-            self.state(group, number, &state);
+            self.state(group, &state);
         }
     }
 
-    fn state(&mut self, group: &Group<'_>, number: usize, state: &GroupState<'_, '_>) {
+    fn state(&mut self, group: &Group<'_>, state: &GroupState<'_, '_>) {
+        let number = state.number;
         self.text.section("[[blinds.states]]");
         self.text.key("name", &quoted(&format!("state {number}")));
         if !state.shades.is_empty() {

@@ -19,8 +19,8 @@ fn loaded(model: &Value, weather: Option<&str>) -> Loaded {
     if let Some(weather) = weather {
         files = files.with(weather, crate::blinds::WEA);
     }
-    for (name, bytes) in imported.files {
-        files = files.with(&name, bytes);
+    for file in imported.files {
+        files = files.with(&file.name, file.bytes);
     }
     load("m.toml", imported.text.as_bytes(), &files)
         .unwrap_or_else(|error| panic!("{error}\n{}", imported.text))
@@ -41,7 +41,8 @@ fn office() -> Value {
     let mut model = model(&[room]);
     model["properties"]["radiance"]["sensor_grids"] = json!([{
         "type": "SensorGrid", "identifier": "desk",
-        "sensors": [{"pos": [1, 1, 0.8], "dir": [0, 0, 1]}, {"pos": [2.5, 1, 0.8], "dir": [0, 0, 2]}],
+        "sensors": [{"pos": [1, 1, 0.8], "dir": [0, 0, 1]},
+            {"pos": [2.5, 1, 0.8], "dir": [0, 0, 2]}],
     }]);
     model
 }
@@ -248,7 +249,10 @@ fn changing() -> Value {
         json!({"type": "Glass", "identifier": name, "r_transmissivity": share,
                "g_transmissivity": share, "b_transmissivity": share})
     };
-    let shade = |name: &str, y: f64| json!({"identifier": name, "geometry": upright(y, [1.0, 1.0], [2.0, 2.0])});
+    let shade = |name: &str, y: f64| {
+        let geometry = upright(y, [1.0, 1.0], [2.0, 2.0]);
+        json!({"identifier": name, "geometry": geometry})
+    };
     let mut pane = window("pane", upright(0.0, [1.0, 1.0], [2.0, 2.0]));
     pane["properties"] = json!({"radiance": {"dynamic_group_identifier": "south \"1\"", "states": [
         {"modifier": "bright", "shades": [shade("first", -0.2)]},
@@ -281,8 +285,10 @@ pub(crate) fn everything() -> Value {
             "tilt": 90, "rotation": 1.5}]},
     }]);
     radiance["views"] = json!([{"identifier": "eye", "position": [2, 0.5, 1.5],
-        "direction": [0, 1, 0], "up_vector": [0, 0, 1], "view_type": "v", "h_size": 9, "v_size": 6}]);
-    radiance["sensor_grids"][0]["mesh"] = json!({"vertices": [[0, 0, 0], [1, 0, 0], [1, 2, 0], [0, 2, 0]],
+        "direction": [0, 1, 0], "up_vector": [0, 0, 1], "view_type": "v", "h_size": 9,
+        "v_size": 6}]);
+    radiance["sensor_grids"][0]["mesh"] = json!({
+        "vertices": [[0, 0, 0], [1, 0, 0], [1, 2, 0], [0, 2, 0]],
                "faces": [[0, 1, 2, 3], [0, 1, 2]]});
     let shiny = json!({"type": "Plastic", "identifier": "shiny", "r_reflectance": 0.4,
         "specularity": 0.1, "roughness": 0.1, "modifier": {"type": "Void"}});
@@ -360,7 +366,8 @@ fn groups_stay_in_their_first_state_without_a_year() {
 #[test]
 fn materials_of_states_are_those_of_the_model() {
     let modifiers = [
-        json!({"type": "Plastic", "r_reflectance": 0.1, "g_reflectance": 0.2, "b_reflectance": 0.3}),
+        json!({"type": "Plastic", "r_reflectance": 0.1, "g_reflectance": 0.2,
+               "b_reflectance": 0.3}),
         json!({"type": "Plastic", "r_reflectance": 0.1, "specularity": 0.05, "roughness": 0.1}),
         json!({"type": "Metal", "r_reflectance": 0.7, "specularity": 0.9, "roughness": 0.1}),
         json!({"type": "Mirror", "r_reflectance": 0.7, "g_reflectance": 0.7, "b_reflectance": 0.7}),

@@ -28,8 +28,10 @@ fn survive(bytes: &[u8]) -> usize {
     match import_honeybee(bytes, &terms) {
         Err(error) => is_one_line(error.to_string()),
         Ok(imported) => {
-            let files =
-                imported.files.iter().fold(files, |files, (name, bytes)| files.with(name, bytes));
+            let files = imported
+                .files
+                .iter()
+                .fold(files, |files, file| files.with(&file.name, &file.bytes));
             match load("m.toml", imported.text.as_bytes(), &files) {
                 Ok(_) => loaded += 1,
                 Err(error) => {

@@ -26,8 +26,8 @@ pub(crate) fn import(arguments: &ImportArguments) -> Result<Exit, CliError> {
     let stem = out.file_stem().unwrap_or_default().to_string_lossy();
     let Imported { text, files, findings, measures } =
         import_model(model, weather.as_deref(), &folder, &stem)?;
-    for (name, bytes) in &files {
-        results::write_atomic(&folder.join(name), bytes)?;
+    for file in &files {
+        results::write_atomic(&folder.join(&file.name), &file.bytes)?;
     }
     results::write_atomic(out, text.as_bytes())?;
     findings.iter().for_each(|finding| tell(format_args!("warning: {finding}")));

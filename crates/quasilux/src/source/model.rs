@@ -3,7 +3,7 @@
 use super::{Source, from_the_root};
 use crate::exit::CliError;
 use crate::input;
-use quasilux_scene::{FileKind, ImportTerms, Imported, import_honeybee};
+use quasilux_scene::{FileKind, ImportTerms, Imported, ImportedFile, import_honeybee};
 use std::path::{Component, Path, PathBuf};
 
 /// Whether a file is a model, by its name.
@@ -45,8 +45,7 @@ impl Source {
             return Err(CliError::in_file(&name, None, message));
         }
         let source = Self::in_memory(&format!("{name} as a project"), text).with_folder(folder);
-        let with_file =
-            |source: Self, (name, bytes): (String, Vec<u8>)| source.with_file(&name, bytes);
+        let with_file = |source: Self, file: ImportedFile| source.with_file(&file.name, file.bytes);
         let source = files.into_iter().fold(source, with_file);
         Ok(Self { findings, path: Some(path.to_owned()), ..source })
     }

@@ -4,8 +4,8 @@ use crate::support::{Folder, illuminances, number, parsed};
 use serde_json::{Value, json};
 
 /// Type C, absolute: 1000 cd in all directions of the lower half.
-const LAMP: &str = "IESNA:LM-63-2002\n[TEST] none\n[MANUFAC] none\nTILT=NONE\n1 -1 1 2 1 1 2 0 0 0\n\
-    1 1 10\n0 90\n0\n1000 1000\n";
+const LAMP: &str = "IESNA:LM-63-2002\n[TEST] none\n[MANUFAC] none\nTILT=NONE\n\
+    1 -1 1 2 1 1 2 0 0 0\n1 1 10\n0 90\n0\n1000 1000\n";
 
 /// Some hours of two days: illuminances of sun and sky.
 const WEATHER: &str = "place Here\nlatitude 37.72\nlongitude 122.22\ntime_zone 120\n\
