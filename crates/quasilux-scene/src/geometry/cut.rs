@@ -20,7 +20,7 @@ pub(super) struct HoleCutter {
     pairs_left: u64,
 }
 
-/// What is left of a polygon, counter-clockwise seen as the polygon is.
+/// Rest of a polygon, counter-clockwise seen as the polygon is.
 #[derive(Debug, Default)]
 pub(super) struct Left {
     pub(super) triangles: Vec<[DVec3; 3]>,

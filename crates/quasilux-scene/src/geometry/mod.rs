@@ -61,7 +61,7 @@ impl FileMaterial {
     }
 }
 
-/// What a geometry file says of how a material scatters light.
+/// Scattering of a material, as a geometry file describes it.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum FileScattering {
     Described(Arc<Bsdf>),

@@ -18,7 +18,7 @@ pub(crate) struct Group<'m> {
     states: usize,
 }
 
-/// What changes alike: a material of the scene, and its look in each state.
+/// Part of a group that changes alike: a material of the scene, and its look in each state.
 #[derive(Debug)]
 struct Member {
     material: String,
@@ -41,7 +41,7 @@ pub(crate) struct StateShade<'m> {
 #[derive(Debug)]
 pub(crate) struct GroupState<'g, 'm> {
     pub(crate) number: usize,
-    /// What materials are in it, by name.
+    /// Looks of materials in it, by name.
     pub(crate) looks: Vec<(&'g str, &'g Look)>,
     pub(crate) shades: Vec<&'g StateShade<'m>>,
 }

@@ -20,7 +20,7 @@ const MIN_ALPHA: f64 = 0.0004;
 /// Where tables of Honeybee's sheets point upward if nothing is said.
 const USUAL_UP: DVec3 = DVec3::new(0.01, 0.01, 1.0);
 
-/// What a modifier makes of a surface.
+/// Surface that a modifier makes.
 #[derive(Clone, Debug)]
 pub(crate) enum Look {
     /// A surface.
@@ -31,7 +31,7 @@ pub(crate) enum Look {
     Light(f64),
     /// Nothing at all.
     Open,
-    /// What quasilux has nothing for, in the words of a refusal.
+    /// Something that quasilux has nothing for, in the words of a refusal.
     Unknown(String),
 }
 

@@ -93,7 +93,7 @@ pub(crate) enum FaceType {
     AirBoundary,
 }
 
-/// What is behind a face.
+/// Condition behind a face.
 #[derive(Debug, Default, Deserialize)]
 pub(crate) struct Boundary {
     #[serde(rename = "type")]
@@ -187,7 +187,7 @@ impl Model {
         }
     }
 
-    /// What is said of light.
+    /// Properties of light.
     pub(crate) fn radiance(&self) -> Option<&ModelRadiance> {
         self.properties.get()
     }

@@ -17,7 +17,7 @@ pub(super) struct Modifiers<'m> {
 }
 
 impl<'m> Modifiers<'m> {
-    /// Those of a model, and Honeybee's own.
+    /// Collects those of a model, and Honeybee's own.
     pub(super) fn new(file: &'m str, model: &'m Model) -> Self {
         let mut all = Self { file, by_name: HashMap::new(), sets: HashMap::new(), global: None };
         all.add(defaults::modifiers());

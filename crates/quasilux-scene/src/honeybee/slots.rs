@@ -1,6 +1,6 @@
 //! Uses of modifiers: what sets list them by.
 
-/// What a modifier is for.
+/// Use of a modifier.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Slot {
     Wall { is_inside: bool },

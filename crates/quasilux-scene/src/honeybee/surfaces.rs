@@ -68,7 +68,7 @@ pub(crate) fn surfaces<'m>(
 const MAX_STATES: usize = 17;
 /// Most modifiers: each takes up to some kB.
 const MAX_MATERIALS: usize = 100_000;
-/// What a modifier without identifier is called.
+/// Name of a modifier without identifier.
 const UNNAMED: &str = "unnamed modifier";
 
 /// The side of a pair that was met first.
@@ -87,7 +87,7 @@ struct Collector<'a, 'm> {
     member_of: HashMap<(usize, Vec<String>), usize>,
     /// Groups by name.
     groups: HashMap<&'m str, usize>,
-    /// What modifiers become, by identifier.
+    /// Looks of modifiers, by identifier.
     looks: HashMap<String, Look>,
     /// Of all materials.
     names: Names,
@@ -409,7 +409,7 @@ impl<'m> Collector<'_, 'm> {
         })
     }
 
-    /// What a modifier becomes.
+    /// Look of a modifier.
     fn look(&mut self, modifier: &Modifier) -> Result<Look, LoadError> {
         let name = modifier.identifier.as_deref().unwrap_or(UNNAMED);
         if let Some(known) = self.looks.get(name) {

@@ -48,7 +48,7 @@ impl Writer<'_> {
         LoadError::new(self.terms.model, None, format!("{place}: {what}"))
     }
 
-    /// What the light of the file is multiplied by.
+    /// Factor on the light of the file.
     fn factor(&mut self, luminaire: &Luminaire, place: &str) -> Result<f64, LoadError> {
         let lamp = luminaire.custom_lamp.as_ref();
         if lamp.is_some() {

@@ -26,8 +26,8 @@ pub struct Imported {
     pub text: String,
     /// Files that it names and that were part of the model.
     pub files: Vec<ImportedFile>,
-    /// What of the model the project does not have, or has otherwise. What geometry and materials
-    /// lack is told when the project is loaded.
+    /// Parts of the model that the project does not have, or has otherwise. Findings on geometry and
+    /// materials are told when the project is loaded.
     pub findings: Vec<Warning>,
     /// Whether there is something to measure: a sensor or a camera.
     pub measures: bool,
@@ -45,7 +45,7 @@ pub struct ImportedFile {
 /// How a model becomes a project.
 #[derive(Clone, Copy, Debug)]
 pub struct ImportTerms<'t> {
-    /// What messages call the model.
+    /// Name of the model in messages.
     pub model: &'t str,
     /// The model's file, as the project names it.
     pub geometry: &'t str,

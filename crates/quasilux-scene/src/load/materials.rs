@@ -64,7 +64,7 @@ pub(super) fn resolve(
     Ok(materials)
 }
 
-/// What a geometry file describes as a whole.
+/// Scattering that a geometry file describes as a whole.
 fn of_file(
     material: &FileMaterial,
     number: u32,

@@ -29,7 +29,7 @@ fn area(outline: &Value) -> f64 {
     0.5 * corners.iter().zip(next).map(|(a, b)| a.cross(*b)).sum::<DVec3>().length()
 }
 
-/// What surfaces there are, and how large they are together.
+/// Number of surfaces, and their area together.
 #[derive(Debug, Default)]
 struct Count {
     surfaces: usize,

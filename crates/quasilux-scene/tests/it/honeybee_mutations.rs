@@ -116,7 +116,7 @@ fn odd_values() {
     assert!((models() / 10..models() * 2).contains(&loaded), "{loaded} loaded");
 }
 
-/// What is small in the file and large in memory, or slow: each in less than some seconds.
+/// Models that are small in the file and large in memory, or slow: each ends in some seconds.
 #[test]
 fn large_models_end() {
     let wrap = |rooms: &str| format!("{{\"type\":\"Model\",\"rooms\":[{rooms}]}}");

@@ -32,7 +32,7 @@ pub struct Source {
     folder: Option<PathBuf>,
     files: BTreeMap<String, Vec<u8>>,
     triangles: BTreeMap<String, Triangles>,
-    /// What the model that it was made of has, and it has not.
+    /// Parts of the model that it was made of, which it has not.
     findings: Vec<Warning>,
     /// Of the identity that it has to have.
     expected_sha256: Option<String>,
