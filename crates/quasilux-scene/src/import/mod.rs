@@ -26,8 +26,8 @@ pub struct Imported {
     pub text: String,
     /// Files that it names and that were part of the model.
     pub files: Vec<ImportedFile>,
-    /// Parts of the model that the project does not have, or has otherwise. Findings on geometry and
-    /// materials are told when the project is loaded.
+    /// Parts of the model that the project does not have, or has otherwise. Findings on geometry
+    /// and materials are told when the project is loaded.
     pub findings: Vec<Warning>,
     /// Whether there is something to measure: a sensor or a camera.
     pub measures: bool,
