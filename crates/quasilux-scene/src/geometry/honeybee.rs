@@ -60,17 +60,22 @@ fn tell_unused(model: &Model, groups: usize, project: &Project, findings: &mut F
     let counts = [
         ("luminaires", radiance.luminaires.len(), project.luminaires.is_empty()),
         ("sensor grids", radiance.sensor_grids.len(), project.sensors.is_empty()),
-        ("dynamic groups", groups, project.blinds.is_empty()),
         ("views", radiance.views.len(), project.cameras.is_empty()),
     ];
     for (what, count, is_without) in counts {
         if count > 0 && is_without {
             let message = format!(
-                "{count} {what} of the model are not in the project; `quasilux import` writes a \
-                 project with them"
+                "{what} ({count}) are not in the project; `quasilux import` writes one with them"
             );
             findings.note("properties.radiance", message);
         }
+    }
+    if groups > 0 && project.blinds.is_empty() {
+        let message = format!(
+            "dynamic groups ({groups}) stay in their first state; `quasilux import --weather` \
+             writes a project in which they move"
+        );
+        findings.note("properties.radiance", message);
     }
 }
 

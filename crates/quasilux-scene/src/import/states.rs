@@ -13,10 +13,7 @@ impl Writer<'_> {
     /// Writes the groups, if there is a year for them to move in.
     pub(super) fn states(&mut self, surfaces: &Surfaces<'_>) {
         if self.terms.weather.is_none() {
-            for group in &surfaces.groups {
-                let note = "dynamic groups stay in state 0 without the weather of a year";
-                self.findings.note(&format!("group \"{}\"", group.name), note);
-            }
+            // Told when the project is loaded.
             return;
         }
         for (number, group) in surfaces.groups.iter().enumerate() {

@@ -52,7 +52,7 @@ fn control(
 
 /// The project of the room with blinds in a position.
 fn with_blinds(project: &Project, position: &PositionEntry) -> Project {
-    let mut room = Project { blinds: Vec::new(), ..project.clone() };
+    let mut room = project.clone();
     room.geometry.extend(position.geometry.iter().cloned());
     let is_new =
         |name: &Spanned<String>| position.materials.iter().all(|it| it.name.value != name.value);

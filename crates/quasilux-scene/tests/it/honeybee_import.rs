@@ -1,7 +1,7 @@
 //! Projects that are made of Honeybee models: the text, and the scene that it loads to.
 
 use crate::honeybee::{model, room, upright, window};
-use crate::support::{LAMP_IES, MapFiles};
+use crate::support::{LAMP_IES, MapFiles, warnings_of};
 use quasilux_scene::{
     Bsdf, DVec3, ImportTerms, Imported, Light, Loaded, SensorShape, import_honeybee, load,
 };
@@ -28,6 +28,11 @@ fn loaded(model: &Value, weather: Option<&str>) -> Loaded {
 
 fn findings(model: &Value, weather: Option<&str>) -> Vec<String> {
     import(model, weather).unwrap().findings.iter().map(ToString::to_string).collect()
+}
+
+/// Warnings of a loaded scene that are about the model.
+fn told_of_model(loaded: &Loaded) -> Vec<String> {
+    warnings_of(loaded).into_iter().filter(|it| it.starts_with("m.hbjson")).collect()
 }
 
 fn add(list: &mut Value, item: Value) {
@@ -317,6 +322,7 @@ pub(crate) fn everything() -> Value {
 #[test]
 fn groups_become_blinds_state_by_state() {
     let found = loaded(&changing(), Some("a.wea"));
+    assert_eq!(told_of_model(&found), Vec::<String>::new());
     let blinds = found.blinds.expect("groups");
     let names: Vec<(&str, usize)> =
         blinds.groups.iter().map(|it| (it.name.as_str(), it.positions.len())).collect();
@@ -358,8 +364,8 @@ fn groups_become_blinds_state_by_state() {
 fn groups_stay_in_their_first_state_without_a_year() {
     let found = loaded(&changing(), None);
     assert!(found.blinds.is_none());
-    let told = findings(&changing(), None);
-    assert!(told[0].contains("stay in state 0 without the weather of a year"), "{told:?}");
+    let told = warnings_of(&found);
+    assert!(told[0].contains("dynamic groups (2) stay in their first state"), "{told:?}");
 }
 
 /// A state is written as a project writes materials, and read back bit by bit.
@@ -389,4 +395,23 @@ fn materials_of_states_are_those_of_the_model() {
         let state = &found.blinds.as_ref().unwrap().groups[0].positions[0].room;
         assert_eq!(of(state, "group south \"1\""), of(&found.scene, "dark"));
     }
+}
+
+/// The model of the documentation: two rooms that are open to one another, in feet.
+#[test]
+fn the_model_of_the_documentation_is_whole() {
+    let text = include_str!("../../../../validation/scenes/two-rooms.hbjson");
+    let model: Value = serde_json::from_str(text).unwrap();
+    let found = loaded(&model, Some("a.wea"));
+    let scene = &found.scene;
+    assert_eq!((scene.lights.len(), scene.sensors.len(), scene.cameras.len()), (3, 1, 1));
+    assert_eq!(found.annual.areas[0].iter().sum::<f64>(), 120.0);
+    assert_eq!(found.blinds.as_ref().map(|it| it.groups.len()), Some(1));
+    assert_eq!(told_of_model(&found), Vec::<String>::new());
+    let mesh = &scene.mesh;
+    let area = |t: u32| mesh.area_m2(t) / (0.3048 * 0.3048);
+    // Both rooms without what is between them, and the canopy.
+    let outside = 2.0 * (16.0 * 20.0 + 16.0 * 9.0 + 20.0 * 9.0) + 12.0 * 2.0;
+    let total: f64 = (0..mesh.triangles.len() as u32).map(area).sum();
+    assert!((total / outside - 1.0).abs() < 1e-12, "{total} is not {outside}");
 }
