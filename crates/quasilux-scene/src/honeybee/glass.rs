@@ -17,7 +17,7 @@ pub(super) const INDEX: f64 = 1.52;
 const DEGREES_APART: [(u32, u32); 2] = [(0, 2), (60, 1)];
 
 /// Transmitted and reflected over incident flux.
-struct Shares {
+struct PaneShares {
     transmitted: f64,
     reflected: f64,
 }
@@ -31,7 +31,7 @@ pub(super) fn grey(eta: f64, transmissivity: f64) -> Pane {
     let angle =
         |degrees: u32| if degrees == 90 { FRAC_PI_2 } else { f64::from(degrees).to_radians() };
     let angles: Vec<f64> = degrees.map(angle).collect();
-    let table = |share: fn(Shares) -> f64| {
+    let table = |share: fn(PaneShares) -> f64| {
         let node = |&theta_rad: &f64| AngularNode {
             theta_rad,
             share: share(shares(eta, transmissivity, theta_rad)).clamp(0.0, 1.0),
@@ -49,12 +49,12 @@ pub(super) fn coloured(eta: f64, transmissivity: Rgb) -> Pane {
 }
 
 /// Of unpolarised light that comes at an angle.
-fn shares(eta: f64, transmissivity: f64, theta_rad: f64) -> Shares {
+fn shares(eta: f64, transmissivity: f64, theta_rad: f64) -> PaneShares {
     let (sin, cos) = libm::sincos(theta_rad);
     let cos = if theta_rad >= FRAC_PI_2 { 0.0 } else { cos };
     let inside = (1.0 - sin * sin / (eta * eta)).max(0.0).sqrt();
     if cos <= 0.0 || inside <= 0.0 {
-        return Shares { transmitted: 0.0, reflected: 1.0 };
+        return PaneShares { transmitted: 0.0, reflected: 1.0 };
     }
     let passed = libm::pow(transmissivity, 1.0 / inside);
     let amplitudes =
@@ -63,9 +63,9 @@ fn shares(eta: f64, transmissivity: f64, theta_rad: f64) -> Shares {
         let r = amplitude * amplitude;
         let left = 1.0 - r * r * passed * passed;
         let transmitted = (1.0 - r) * (1.0 - r) * passed / left;
-        Shares { transmitted, reflected: r + r * passed * transmitted }
+        PaneShares { transmitted, reflected: r + r * passed * transmitted }
     });
-    Shares {
+    PaneShares {
         transmitted: 0.5 * (across.transmitted + along.transmitted),
         reflected: 0.5 * (across.reflected + along.reflected),
     }
@@ -131,7 +131,7 @@ mod tests {
         };
         for tenth in 0..850 {
             let theta_rad = f64::from(tenth) / 900.0 * FRAC_PI_2;
-            let Shares { transmitted, reflected } = shares(INDEX, 0.7, theta_rad);
+            let PaneShares { transmitted, reflected } = shares(INDEX, 0.7, theta_rad);
             assert!((transmittance.at_angle(theta_rad) - transmitted).abs() < 1e-3, "{tenth}");
             assert!((front_reflectance.at_angle(theta_rad) - reflected).abs() < 1e-3, "{tenth}");
         }

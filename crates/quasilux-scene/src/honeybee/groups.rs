@@ -3,7 +3,7 @@
 //! State 0 is how the scene is. What changes has a material of its own in the scene, so that each
 //! state is what materials are in it, and which shades there are beside.
 
-use super::looks::{Look, invisible};
+use super::look::{Look, invisible};
 use super::shapes::Face3D;
 use crate::Bsdf;
 use crate::bsdf::Diffuse;

@@ -91,7 +91,7 @@ impl<'m> Modifiers<'m> {
 
     /// The modifier of a thing: its own, or the one for its use in the set of its room, or else in
     /// other sets.
-    pub(super) fn of(
+    pub(super) fn choose(
         &self,
         own: Option<&'m Named<Modifier>>,
         set: Option<&'m ModifierSet>,

@@ -2,7 +2,7 @@
 
 use super::findings::Findings;
 use super::groups::{Group, StateShade, in_place};
-use super::looks::{Look, look};
+use super::look::{Look, look};
 use super::model::{Aperture, Boundary, Door, Face, FaceType, Model, Room, Shade};
 use super::modifiers::Modifiers;
 use super::names::{Names, plain};
@@ -190,7 +190,7 @@ impl<'m> Collector<'_, 'm> {
             FaceType::AirBoundary => Slot::AirBoundary,
         };
         let own = face.properties.get().and_then(|radiance| radiance.modifier.as_ref());
-        let modifier = self.modifiers.of(own, set, slot, place)?;
+        let modifier = self.modifiers.choose(own, set, slot, place)?;
         let apertures = face.apertures.iter();
         let apertures = apertures.map(|it| SubFace::of_aperture(it, set, face.face_type));
         let doors = face.doors.iter().map(|it| SubFace::of_door(it, set, face.face_type));
@@ -213,7 +213,7 @@ impl<'m> Collector<'_, 'm> {
     fn sub_face(&mut self, sub_face: &SubFace<'m>, place: &str) -> Result<(), LoadError> {
         let SubFace { thing, geometry, boundary, indoor_shades, outdoor_shades } = *sub_face;
         let own = thing.radiance.and_then(|radiance| radiance.modifier.as_ref());
-        let modifier = self.modifiers.of(own, thing.set, thing.slot, place)?;
+        let modifier = self.modifiers.choose(own, thing.set, thing.slot, place)?;
         if self.is_first_side(thing.name, boundary, modifier, place) {
             let shape = Shape::Polygon { outline: geometry, cut_out: Vec::new() };
             self.add(thing, shape, place)?;
@@ -280,7 +280,7 @@ impl<'m> Collector<'_, 'm> {
     /// Adds something that may have states.
     fn add(&mut self, thing: Thing<'m>, shape: Shape<'m>, place: &str) -> Result<(), LoadError> {
         let own = thing.radiance.and_then(|radiance| radiance.modifier.as_ref());
-        let modifier = self.modifiers.of(own, thing.set, thing.slot, place)?;
+        let modifier = self.modifiers.choose(own, thing.set, thing.slot, place)?;
         let material = match thing.radiance {
             Some(radiance) if !radiance.states.is_empty() => {
                 self.states(thing, radiance, modifier, place)?
@@ -362,7 +362,7 @@ impl<'m> Collector<'_, 'm> {
         for (which, shade) in state.shades.iter().enumerate() {
             let place = format!("{place}.properties.radiance.states[{number}].shades[{which}]");
             let slot = Slot::Shade { is_inside: false };
-            let modifier = self.modifiers.of(shade.modifier.as_ref(), None, slot, &place)?;
+            let modifier = self.modifiers.choose(shade.modifier.as_ref(), None, slot, &place)?;
             let shape = Shape::Polygon { outline: &shade.geometry, cut_out: Vec::new() };
             let Some(group) = group else {
                 let material = self.material(modifier)?;

@@ -80,7 +80,7 @@ impl Count {
         self.shades(face);
     }
 
-    fn of(model: &Value) -> Self {
+    fn new(model: &Value) -> Self {
         let mut count = Self::default();
         for room in list(model, "rooms") {
             list(room, "faces").iter().for_each(|face| count.face(face));
@@ -120,7 +120,7 @@ fn all_models_load_with_the_surfaces_that_they_have() {
         let name = path.file_name().and_then(|name| name.to_str()).unwrap();
         let bytes = std::fs::read(&path).unwrap();
         let model: Value = serde_json::from_slice(&bytes).unwrap();
-        let expected = Count::of(&model);
+        let expected = Count::new(&model);
         let loaded = load_text(&project(name), &MapFiles::default().with(name, &bytes));
         let loaded = loaded.unwrap_or_else(|error| panic!("{name}: {error}"));
         let (surfaces, area) = (loaded.scene.mesh.objects.len(), total_area(&loaded.scene));
