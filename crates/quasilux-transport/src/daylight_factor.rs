@@ -27,7 +27,7 @@ use std::ops::Range;
 
 /// Paths of each replicate at most for each sample that the illuminance took: most are short.
 const PER_SAMPLE: u64 = 4;
-/// A component may take this share of the tolerance of the illuminance.
+/// A component may take this share of the tolerance of the illuminance, or of its half-width.
 const SHARE_OF_TOLERANCE: f64 = 0.5;
 
 /// An illuminance that a run found.
@@ -53,10 +53,10 @@ pub struct DaylightComponents {
     pub unseen_lx: f64,
 }
 
-/// The components at all sensor points, sensor by sensor, of illuminances to whose tolerance they
-/// are to be known, or half-width where that is larger, with at most four paths for each of their
-/// samples. `None` where the sky does
-/// not shine alone, and where there are no openings that make an inside.
+/// The components at all sensor points, sensor by sensor, of illuminances. They are to be known to
+/// half of the tolerance, or half of the half-width where that is larger, with at most four paths
+/// for each sample of the illuminance. `None` where the sky does not shine alone, and where there
+/// are no openings that make an inside.
 ///
 /// `goes_on` is asked again and again: once it says no, points get no more paths. The result is a
 /// function of scene, settings and illuminances else. Runs in the rayon pool that the call is
@@ -165,8 +165,8 @@ impl DaylightComponents {
     /// paths are traced.
     fn are_known(&self, settings: &Settings, illuminance: &FoundIlluminance) -> bool {
         let &FoundIlluminance { lx, half_width_lx, .. } = illuminance;
-        let enough_lx = SHARE_OF_TOLERANCE * settings.tolerance_lx(lx);
-        let enough_lx = half_width_lx.map_or(enough_lx, |own_lx| enough_lx.max(own_lx));
+        let enough_lx = settings.tolerance_lx(lx).max(half_width_lx.unwrap_or(0.0));
+        let enough_lx = SHARE_OF_TOLERANCE * enough_lx;
         let is_known = |it: Interval| {
             it.or_unseen(self.unseen_lx).half_width.is_some_and(|width| width <= enough_lx)
         };

@@ -272,8 +272,8 @@ pub struct Settings {
     /// goes on while a chain of mirrors reflects 1e-4 at least, and the images stay few.
     pub image_depth: Option<u32>,
     /// Whether photons that sensors count, and those of maps that grow, are split and ended where
-    /// that helps the sensors, and light subpaths of the default go on in copies there; else they
-    /// keep equal flux.
+    /// that helps the sensors, light subpaths of the default go on in copies there, and its eye
+    /// paths are led through openings; else they keep equal flux, and none is led.
     pub importance: Switch,
 }
 

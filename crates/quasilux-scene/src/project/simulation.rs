@@ -123,7 +123,7 @@ pub(super) const KEYS: [Key; 22] = [
         "importance",
         SWITCH,
         "`\"auto\"`",
-        "Whether photons and light subpaths are split where they matter more to the sensors",
+        "Whether photons are split where they matter to the sensors, and paths led to openings",
     ),
 ];
 

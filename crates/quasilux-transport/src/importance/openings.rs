@@ -20,17 +20,20 @@ use quasilux_sampling::Sampler;
 use quasilux_sampling::warp::sample_cosine_hemisphere;
 use rayon::prelude::*;
 
-/// Looks of each kind from a cell.
+/// Lines through openings from a cell.
 const LOOKS: u32 = 16;
+/// Lines around a place for each of those.
+const AROUND: u32 = 3;
 
 /// How a place sees outside.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct OpeningView {
-    /// The part of what the place sees of sky and ground that it sees through openings; 1 where it
-    /// sees nothing.
+    /// The part of what it asks for sky and ground that it asks through openings: about that of
+    /// what it sees of them, 1 where it sees them through openings alone.
     pub(crate) through: f64,
-    /// The part of its lines through openings that meet a surface behind them.
-    pub(crate) blocked: f64,
+    /// The part of its lines through openings that meet a surface behind them, less where the place
+    /// sees sky beside the openings.
+    pub(crate) hidden: f64,
 }
 
 /// A view with the rays that it took.
@@ -58,7 +61,7 @@ pub(crate) struct LookingPlace {
 
 impl OpeningView {
     /// Of places about which nothing is known: they ask through openings, and lead nowhere.
-    pub(crate) const UNKNOWN: Self = Self { through: 1.0, blocked: 0.0 };
+    pub(crate) const UNKNOWN: Self = Self { through: 1.0, hidden: 0.0 };
 
     /// Looks out of a place, or of some that are taken in turn, this many times along each kind of
     /// line; `number` is that of the place among all that look with the same samples.
@@ -83,7 +86,7 @@ impl OpeningView {
     }
 
     fn put(&self, out: &mut Writer) {
-        out.value(&[self.through, self.blocked]);
+        out.value(&[self.through, self.hidden]);
     }
 }
 
@@ -138,10 +141,13 @@ struct Lines {
 impl Lines {
     fn add(&mut self, outside: &OutsideLight<'_>, from: &LookingPlace, sampler: &mut Sampler<'_>) {
         let &LookingPlace { from, n } = from;
-        let local = DVec3::from_array(sample_cosine_hemisphere(sampler.next_2d()));
-        self.around.push(from.query(Frame::around(n).to_world(local)));
         let place = Asking { position: from.position(), side: Some(n), own: from.facet() };
-        let asked = outside.sample_asked(place, sampler.next_2d());
+        // The first two coordinates are spread best.
+        let asked = outside.sample_through(place, sampler.next_2d());
+        for _ in 0..AROUND {
+            let local = DVec3::from_array(sample_cosine_hemisphere(sampler.next_2d()));
+            self.around.push(from.query(Frame::around(n).to_world(local)));
+        }
         let Some(direction) = asked.map(|it| it.direction).filter(|it| n.dot(*it) > 0.0) else {
             return;
         };
@@ -167,15 +173,18 @@ impl Lines {
             transmittances(&context.world, lines, &mut passages);
             passages.iter().map(Option::is_some).collect::<Vec<bool>>()
         };
-        let (mut through, mut all) = (0, 0);
+        let (mut through, mut all) = (0.0, 0.0);
         for (_, line) in is_free(&self.around).iter().zip(&self.around).filter(|(free, _)| **free) {
             let opening_m = outside.opening_distance_m(line.ray.origin, line.ray.direction);
-            through += u32::from(opening_m.is_some());
-            all += 1;
+            through += f64::from(u8::from(opening_m.is_some()));
+            all += 1.0;
         }
-        let through = if all > 0 { f64::from(through) / f64::from(all) } else { 1.0 };
         let (reach, leave) = (is_free(&self.to_openings), is_free(&self.through));
         let blocked = reach.iter().zip(&leave).filter(|(reach, leave)| **reach && !**leave).count();
-        OpeningView { through, blocked: blocked as f64 / f64::from(looks) }
+        // The rule of succession (Laplace), but where openings show all that is seen.
+        let shows_all = through == all && (all > 0.0 || leave.contains(&true));
+        let asked = if shows_all { 1.0 } else { (through + 1.0) / (all + 2.0) };
+        let inside = if all > 0.0 { through / all } else { 1.0 };
+        OpeningView { through: asked, hidden: inside * blocked as f64 / f64::from(looks) }
     }
 }

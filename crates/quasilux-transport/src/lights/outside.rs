@@ -206,16 +206,6 @@ impl<'a> OutsideLight<'a> {
         self.sun.as_ref().filter(on_disk).map_or(0.0, |sun| sun.luminance_cd_m2)
     }
 
-    /// A direction to ask along for sky and ground through an opening or in a bright pixel, with
-    /// its density in sr^-1.
-    pub(crate) fn sample_asked(&self, place: Asking, u: [f64; 2]) -> Option<DrawnDirection> {
-        let seen = self.seen(place);
-        let direction = self.sample_direction(&seen, place, u)?;
-        let pdf_sr = self.pdf_of(&seen, place, direction);
-        // At the very edge of a pixel rounding may find its neighbour.
-        (pdf_sr > 0.0).then_some(DrawnDirection { direction, pdf_sr })
-    }
-
     /// A direction to the disk of the sun, evenly over it.
     pub(crate) fn sample_sun(&self, u: [f64; 2]) -> Option<DVec3> {
         Some(self.sun.as_ref()?.sample_direction(u))
@@ -264,12 +254,14 @@ impl<'a> OutsideLight<'a> {
 
     /// A direction through one point of the openings or to a bright pixel.
     fn sample_direction(&self, seen: &SeenPortals, place: Asking, u: [f64; 2]) -> Option<DVec3> {
-        let share = self.bright_share();
-        if let Some(bright) = self.bright.as_ref().filter(|_| u[0] < share) {
-            return Some(bright.sample([u[0] / share, u[1]]));
+        match self.ask_bright(u) {
+            Ok(direction) => Some(direction),
+            Err(u) => self.sample_portal(seen, place, u),
         }
-        let u_portal = (u[0] - share) / (1.0 - share);
-        let choice = choose_weights(u_portal, seen.portals.iter().map(Seen::weight))?;
+    }
+
+    fn sample_portal(&self, seen: &SeenPortals, place: Asking, u: [f64; 2]) -> Option<DVec3> {
+        let choice = choose_weights(u[0], seen.portals.iter().map(Seen::weight))?;
         let portal = seen.portals[choice.index].as_ref()?;
         let point = portal.triangle.sample_point([choice.u_remapped, u[1]]);
         Some((point - place.position).normalize_or_zero())
@@ -299,13 +291,44 @@ impl<'a> OutsideLight<'a> {
         (cos > 0.0).then_some(OnwardDirection { direction, pdf_sr, weight: cos / pdf_sr })
     }
 
+    /// A direction through an opening, with its density in sr^-1.
+    pub(crate) fn sample_through(&self, place: Asking, u: [f64; 2]) -> Option<DrawnDirection> {
+        let seen = self.seen(place);
+        let direction = self.sample_portal(&seen, place, u)?;
+        let pdf_sr = self.pdf_through(&seen, place, direction);
+        (pdf_sr > 0.0).then_some(DrawnDirection { direction, pdf_sr })
+    }
+
+    /// Density in sr^-1 of [`Self::sample_through`].
+    pub(crate) fn through_pdf_sr(&self, place: Asking, direction: DVec3) -> f64 {
+        // Most directions go through none, and then weights of openings do not matter.
+        match self.opening_distance_m(place.position, direction) {
+            Some(_) => self.pdf_through(&self.seen(place), place, direction),
+            None => 0.0,
+        }
+    }
+
+    /// A bright pixel that a sample with this coordinate asks for, by two more; else the coordinate
+    /// for other ways of asking.
+    pub(crate) fn ask_bright(&self, u: [f64; 2]) -> Result<DVec3, [f64; 2]> {
+        let share = self.bright_share();
+        match &self.bright {
+            Some(bright) if u[0] < share => Ok(bright.sample([u[0] / share, u[1]])),
+            _ => Err([(u[0] - share) / (1.0 - share), u[1]]),
+        }
+    }
+
+    /// Density in sr^-1 of asking along a direction, where `other_sr` is that of other ways than by
+    /// bright pixels.
+    pub(crate) fn beside_bright_sr(&self, direction: DVec3, other_sr: f64) -> f64 {
+        self.bright.as_ref().map_or(other_sr, |bright| {
+            bright.share * bright.pdf_sr(direction) + (1.0 - bright.share) * other_sr
+        })
+    }
+
     /// Density in sr^-1 with which [`Self::light_sample`] asks along a direction.
     pub(crate) fn pdf_sr(&self, place: Asking, direction: DVec3) -> f64 {
-        if self.opening_distance_m(place.position, direction).is_none() {
-            // Most directions go through none, and then weights of openings do not matter.
-            return self.bright.as_ref().map_or(0.0, |it| it.share * it.pdf_sr(direction));
-        }
-        self.pdf_of(&self.seen(place), place, direction)
+        self.beside_bright_sr(direction, self.through_pdf_sr(place, direction))
     }
 
     /// The share of the samples that asks for bright pixels.
@@ -374,10 +397,7 @@ impl<'a> OutsideLight<'a> {
 
     /// Density in sr^-1 with which a place that sees the portals so asks along a direction.
     fn pdf_of(&self, seen: &SeenPortals, place: Asking, direction: DVec3) -> f64 {
-        let through_portals = self.pdf_through(seen, place, direction);
-        self.bright.as_ref().map_or(through_portals, |bright| {
-            bright.share * bright.pdf_sr(direction) + (1.0 - bright.share) * through_portals
-        })
+        self.beside_bright_sr(direction, self.pdf_through(seen, place, direction))
     }
 
     /// Density in sr^-1 of a direction where a portal has been chosen.

@@ -13,6 +13,5 @@ pub(crate) mod path_batch;
 pub(crate) mod pixel_rays;
 pub(crate) mod russian_roulette;
 pub(crate) mod start;
-pub(crate) mod subpath_weights;
 pub(crate) mod trace;
 pub(crate) mod wave;

@@ -30,7 +30,6 @@ use crate::path::contribution::PathContribution;
 use crate::path::daylight::Daylight;
 use crate::path::russian_roulette::{CERTAIN_BOUNCES, russian_roulette_factor};
 use crate::path::start::{Measurement, PathMaps, Start};
-use crate::path::subpath_weights::product;
 use crate::purpose::Purpose;
 use crate::spectrum::Spectrum;
 use crate::world::vertex::{Surface, Vertex};
@@ -395,7 +394,7 @@ impl<'p, S: Spectrum> Path<'p, S> {
             None => self.asked_past_specular(context, at),
         };
         let Asked { pdf_m2, inverse_of_direction_m2 } = asked.unwrap_or_default();
-        let ratio = product(pdf_m2, inverse_of_direction_m2);
+        let ratio = if pdf_m2 > 0.0 { pdf_m2 * inverse_of_direction_m2 } else { 0.0 };
         let weight = 1.0 / (1.0 + ratio * ratio);
         self.light.found.add(bounces, self.beta.emitted * (emitted_cd_m2 * weight));
     }

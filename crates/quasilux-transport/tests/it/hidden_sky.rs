@@ -3,10 +3,11 @@
 //! plain paths, which know of neither.
 
 use crate::images::add_panel;
-use crate::outside::{Numbers, Room, even, outside, room_with_window};
-use crate::scenes::{diffuse, points};
+use crate::outside::{ETA, Numbers, Room, even, outside, room_with_window};
+use crate::scenes::{diffuse, point_light, points};
 use glam::DVec3;
-use quasilux_scene::{Environment, Opening, Scene, Sun};
+use quasilux_scene::bsdf::Pane;
+use quasilux_scene::{Bsdf, Environment, Opening, Scene, Sun};
 use quasilux_sky::SkyPoint;
 use quasilux_transport::{Estimates, EstimatorKind, Settings, Switch, simulate};
 use std::f64::consts::{PI, TAU};
@@ -160,7 +161,12 @@ fn hidden_room(numbers: &mut Numbers, number: u64) -> Scene {
         let out_m = numbers.within(0.3, 0.9) * far_m;
         panel(left + DVec3::Z * size.z, width, DVec3::NEG_Y * out_m, 0.5);
     }
-    environment.openings.push(window);
+    if number % 4 < 2 {
+        environment.openings.push(window);
+    } else {
+        let pane = Bsdf::Pane(Pane::Clear { eta: ETA });
+        add_panel(&mut scene, window.origin, window.u, window.v, pane);
+    }
     scene.environment = Some(environment);
     let at = |x: f64, y: f64, z: f64| size * DVec3::new(x, y, z);
     let outside = DVec3::new(0.5 * size.x, -0.5 * far_m, 0.02);
@@ -197,7 +203,9 @@ fn it_agrees_with_plain_paths_in_rooms_at_random() {
         let scene = hidden_room(&mut numbers, number);
         let find = |estimator, importance, samples, seed| {
             let max_samples = Some(samples);
-            let settings = Settings { estimator, importance, max_samples, seed, ..settings() };
+            let max_bounces = (number % 5 == 4).then_some(3);
+            let settings =
+                Settings { estimator, importance, max_bounces, max_samples, seed, ..settings() };
             with_errors(&run(&scene, &settings))
         };
         let found = find(EstimatorKind::Auto, Switch::Auto, 1 << 9, number);
@@ -220,4 +228,31 @@ fn it_agrees_with_plain_paths_in_rooms_at_random() {
     println!("{what}");
     assert!(bias.abs() < 0.5 && (0.7..1.35).contains(&spread), "{what}");
     assert!(gain > 2.0, "{what}");
+}
+
+/// A lamp in a room before whose window a bright shutter is closed, the sky behind it: paths that
+/// are led from the room to the shutter and back end, and give what they gave without openings.
+#[test]
+fn paths_end_between_a_room_and_a_closed_shutter() {
+    let mut numbers = Numbers(47);
+    let Room { mut scene, window } = room_with_window(&mut numbers, 0.8);
+    let [edge_u, edge_v] = [window.u, window.v].map(|edge| 0.2 * edge.normalize());
+    let corner = window.origin - edge_u - edge_v + DVec3::NEG_Y * 0.03;
+    let (u, v) = (window.u + 2.0 * edge_u, window.v + 2.0 * edge_v);
+    add_panel(&mut scene, corner, u, v, diffuse(0.7));
+    let size = size_of(&scene);
+    scene.lights.push(point_light(size * DVec3::new(0.4, 0.5, 0.8), 500.0));
+    let mut environment = outside(&mut numbers);
+    environment.ground_reflectance = 0.0;
+    let settings = Settings { max_samples: Some(1 << 8), ..settings() };
+    scene.environment = Some(environment.clone());
+    let without = run(&scene, &settings);
+    environment.openings.push(window);
+    scene.environment = Some(environment);
+    let led = run(&scene, &settings);
+    assert!(led.rays < 4 * without.rays, "{} rays, {} without", led.rays, without.rays);
+    for (own, other) in with_errors(&led).iter().zip(with_errors(&without)) {
+        let off = (own[0] - other[0]) / libm::hypot(own[1], other[1]);
+        assert!(off.abs() < 4.5, "{own:?}, {other:?} without openings");
+    }
 }

@@ -26,7 +26,7 @@ pub(crate) struct Family {
 }
 
 /// All of them, in the order in which rooms take turns.
-pub(crate) const ALL: [Family; 51] = [
+pub(crate) const ALL: [Family; 52] = [
     Family { name: "plain box", make: boxes::plain },
     Family { name: "furnished office", make: boxes::office },
     Family { name: "corridor", make: corridor::corridor },
@@ -78,6 +78,7 @@ pub(crate) const ALL: [Family; 51] = [
     Family { name: "sun in a mirror", make: sun::mirror },
     Family { name: "skylights", make: sky::skylights },
     Family { name: "wall of mirror", make: facets::mirror_wall },
+    Family { name: "facing building", make: sky::facing },
 ];
 
 /// The room of this number in the family of this name; `None` where there is no such family.

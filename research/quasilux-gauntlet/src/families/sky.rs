@@ -121,3 +121,35 @@ pub(crate) fn slits(dice: &mut Dice) -> Room {
     room.sky_found = FoundBy::BeamsAndJoins;
     room
 }
+
+/// A window that a building opposite hides the sky from, perhaps under an overhang.
+pub(crate) fn facing(dice: &mut Dice) -> Room {
+    let mut room = Room::empty();
+    let block = Block::new([0.0; 3], SIZE_M);
+    let low = [dice.draw("window from m", 0.3, 1.0), dice.draw("sill m", 0.2, 1.2)];
+    let high = [low[0] + dice.log("window m", 0.3, 2.5), 2.5];
+    let window = Opening { side: Side::LowX, low, high };
+    room.add_shell(block, Surface::Grey(dice.draw("reflectance", 0.2, 0.8)), &[window]);
+    let far = dice.log("building away m", 1.5, 12.0);
+    let height = dice.log("building m", 2.0, 20.0);
+    let building = Block::new([-far - 5.0, -15.0, -0.5], [-far, 20.0, height]);
+    room.add_solid(building, Surface::Grey(dice.draw("building reflectance", 0.1, 0.9)));
+    let street = Block::new([-far, -15.0, -0.5], [-0.02, 20.0, -0.3]);
+    room.add_solid(street, Surface::Grey(0.2));
+    if dice.coin("overhang") {
+        let out = dice.draw("overhang m", 0.4, 0.9 * far);
+        let slab = Block::new([-out, -1.0, 2.6], [-0.02, 5.0, 2.7]);
+        room.add_solid(slab, Surface::Grey(0.5));
+    }
+    add_sky(&mut room, dice);
+    room.scatter(dice, DVec3::splat(0.3), DVec3::new(5.7, 3.7, 2.2), 7);
+    room.add_place(DVec3::new(-0.5 * far, 2.0, -0.3), DVec3::Z);
+    room.add_hints(block, [window.at(0.0)]);
+    room.hint_shares = [0.5, 0.3];
+    if dice.coin("openings named") {
+        room.openings.push(window.at(0.0));
+    } else {
+        room.add_face(window.at(-0.01), Surface::Pane(1.52));
+    }
+    room
+}

@@ -4,9 +4,9 @@ use super::engine::Engine;
 use super::leading::WayOut;
 use super::mirrored_way::MirroredWay;
 use super::sources::Photon;
+use super::subpath_weights::{SubpathWeights, product};
 use crate::context::Context;
 use crate::lights::{EmitterPlace, LightKind, OutsideLight};
-use crate::path::subpath_weights::{SubpathWeights, product};
 use crate::spectrum::Spectrum;
 use glam::DVec3;
 

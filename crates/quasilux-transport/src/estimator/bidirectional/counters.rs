@@ -177,7 +177,7 @@ pub(super) fn share<S: Spectrum>(
     let place = Asking { position, side: vertex.only_side(), own: vertex.facet() };
     let way_out = match vertex.surface() {
         None => engine.way_out_of_target(receiver, place),
-        Some(surface) => engine.way_out(place, surface.bsdf),
+        Some(surface) => engine.way_out(place, vertex.ray_origin(receiver.n), surface.bsdf),
     };
     let arrival = Arrival {
         way_out,

@@ -268,7 +268,7 @@ impl<S: Spectrum> Estimator for BidirectionalEstimator<'_, S> {
                 out.value(&[*emitters_found_by, *sky_found_by]);
                 let of_receivers = receivers
                     .iter()
-                    .map(|it| [it.area_m2, it.per_sure_m2, it.view.through, it.view.blocked]);
+                    .map(|it| [it.area_m2, it.per_sure_m2, it.view.through, it.view.hidden]);
                 out.value(&of_receivers.collect::<Vec<[f64; 4]>>());
             }),
             ..Decisions::default()

@@ -10,13 +10,13 @@ use super::leading::{OnwardSample, WayOut};
 use super::light_subpath::{LightVertex, is_narrow};
 use super::mirrored_way::MirroredWay;
 use super::plan::{CONNECTED, FoundBy, JoinEdge, Receiver, favour};
+use super::subpath_weights::SubpathWeights;
 use crate::bsdf::{Bsdf, BsdfSample, TransportMode};
 use crate::context::Context;
 use crate::cutoff::{Gain, MAX_EVENTS};
 use crate::lights::images::ImageSamples;
 use crate::lights::{Asking, ChoiceWork, EmitterPlace};
 use crate::path::path_batch::WorkCounts;
-use crate::path::subpath_weights::SubpathWeights;
 use crate::spectrum::Spectrum;
 use crate::world::frame::Frame;
 use crate::world::vertex::{Surface, Vertex};
@@ -250,7 +250,7 @@ impl<S: Spectrum> EyePath<'_, S> {
         work.shadows.max_bounces =
             context.max_bounces.map_or(u32::MAX, |most| most - self.last.bounces_asked);
         let number = self.passed.vertices as usize;
-        let way_out = engine.way_out(Asking::at(vertex), bsdf);
+        let way_out = engine.way_out(Asking::at(vertex), context.world.ray_origin(at), bsdf);
         let eye_vertex = &EyeVertex { vertex, way_out, weights: here, copies, number };
         self.sample_direct_pointlike(engine, eye_vertex, work);
         self.sample_direct_images(engine, eye_vertex, work);

@@ -15,11 +15,11 @@ use super::light_weights::LightWeights;
 use super::mirrored_way::MirroredWay;
 use super::plan::{CONNECTED, FoundBy};
 use super::sources::Photon;
+use super::subpath_weights::SubpathWeights;
 use crate::bsdf::{Bsdf, BsdfSample, TransportMode};
 use crate::cutoff::{Gain, MAX_EVENTS};
 use crate::lights::images::LightPathClass;
 use crate::lights::{Asking, LightKind};
-use crate::path::subpath_weights::SubpathWeights;
 use crate::spectrum::Spectrum;
 use crate::world::flight::Flight;
 use crate::world::frame::Frame;
@@ -474,9 +474,14 @@ impl<S: Spectrum> Passing<'_, S> {
 }
 
 /// The way out of a surface where a subpath arrived.
-fn way_out<S: Spectrum>(engine: &Engine<'_, '_, S>, at: &Interaction, bsdf: &Bsdf<S>) -> WayOut {
+pub(super) fn way_out<S: Spectrum>(
+    engine: &Engine<'_, '_, S>,
+    at: &Interaction,
+    bsdf: &Bsdf<S>,
+) -> WayOut {
     let side = (!bsdf.transmits()).then_some(at.n);
-    engine.way_out(Asking { position: at.position, side, own: Some(at.facet) }, bsdf)
+    let place = Asking { position: at.position, side, own: Some(at.facet) };
+    engine.way_out(place, engine.context.world.ray_origin(at), bsdf)
 }
 
 /// Whether a surface sends much of the light of a direction into few others, so that only photons

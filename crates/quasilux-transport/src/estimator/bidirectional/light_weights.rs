@@ -6,8 +6,8 @@
 
 use super::leading::Led;
 use super::plan::{FAVOURED, favour};
+use super::subpath_weights::SubpathWeights;
 use crate::bsdf::Bsdf;
-use crate::path::subpath_weights::SubpathWeights;
 use crate::spectrum::Spectrum;
 use glam::DVec3;
 

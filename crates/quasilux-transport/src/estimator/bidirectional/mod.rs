@@ -93,6 +93,7 @@ mod plan;
 mod progress;
 mod samples;
 mod sources;
+mod subpath_weights;
 mod sums;
 mod supremum;
 mod surveyed;

@@ -9,8 +9,10 @@ use crate::importance::{Copies, Looked, LookingPlace, OpeningView, OpeningViews,
 use crate::sensors::Target;
 use crate::spectrum::Spectrum;
 
-/// Looks of each kind from a target at most, and from all of them together.
-const LOOKS: u32 = 16;
+/// Lines through openings from a target at most, and at least where there are many.
+const LOOKS: usize = 16;
+const MIN_LOOKS: usize = 8;
+/// Lines from all targets together, unless each would have less.
 const ALL_LOOKS: usize = 1 << 18;
 
 /// Surveys the scene; the number of rays. `None` when the observer stopped it.
@@ -23,7 +25,9 @@ pub(super) fn survey<S: Spectrum>(
     let survey =
         Survey::new(context, targets, |sampler| engine.sources.pilot(&context.world, sampler));
     let Some(survey) = survey else { return Some(0) };
-    engine.openings = OpeningViews::new(context, &survey);
+    if engine.fluxes.sky_lm + engine.fluxes.sun_lm > 0.0 {
+        engine.openings = OpeningViews::new(context, &survey);
+    }
     engine.copies = Copies::new(context, survey);
     let rays = engine.copies.rays + engine.openings.rays;
     Some(rays + look_from_targets(engine, watch)?)
@@ -38,7 +42,7 @@ fn look_from_targets<S: Spectrum>(
     }
     let context = engine.context;
     let numbered: Vec<(u64, &Receiver)> = (0..).zip(&engine.receivers).collect();
-    let looks = (ALL_LOOKS / numbered.len().max(1)).clamp(1, LOOKS as usize) as u32;
+    let looks = (ALL_LOOKS / numbered.len().max(1)).clamp(MIN_LOOKS, LOOKS) as u32;
     let look = |&(number, receiver): &(u64, &Receiver)| {
         let &Receiver { position, n, .. } = receiver;
         let from = context.world.ray_origin_of_sensor(position, n);

@@ -5,9 +5,10 @@
 //! first j surfaces, the eye subpath the others. With `p_j` the density of technique j, its
 //! contribution `f / p_j` gets the weight `p_j / (p_0 + p_1 + ...)`. What it counts is therefore
 //! `f / (p_0 + p_1 + ...)`: never more than the contribution of the same way in plain path tracing,
-//! nor than that of a plain photon that is connected to the sensor, however badly the technique
-//! suits the scene. No pilot enters these densities, and of
-//! the survey the number of copies that leave a place, which both subpaths know.
+//! twice of it where paths are led (`leading`), nor than that of a plain photon that is connected
+//! to the sensor, however badly the technique suits the scene. No pilot enters these densities; of
+//! the survey do the number of copies that leave a place and how it sees outside, which both
+//! subpaths know.
 //!
 //! The sums over all techniques are kept as two numbers a vertex, and the part of the second that
 //! came by copies, after I. Georgiev, "Implementing
