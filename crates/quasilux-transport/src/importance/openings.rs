@@ -33,7 +33,7 @@ pub(crate) struct OpeningView {
     pub(crate) through: f64,
     /// The part of its lines through openings that meet a surface behind them, less where the place
     /// sees sky beside the openings.
-    pub(crate) hidden: f64,
+    pub(crate) surfaces_behind: f64,
 }
 
 /// A view with the rays that it took.
@@ -61,7 +61,7 @@ pub(crate) struct LookingPlace {
 
 impl OpeningView {
     /// Of places about which nothing is known: they ask through openings, and lead nowhere.
-    pub(crate) const UNKNOWN: Self = Self { through: 1.0, hidden: 0.0 };
+    pub(crate) const UNKNOWN: Self = Self { through: 1.0, surfaces_behind: 0.0 };
 
     /// Looks out of a place, or of some that are taken in turn, this many times along each kind of
     /// line; `number` is that of the place among all that look with the same samples.
@@ -86,7 +86,7 @@ impl OpeningView {
     }
 
     fn put(&self, out: &mut Writer) {
-        out.value(&[self.through, self.hidden]);
+        out.value(&[self.through, self.surfaces_behind]);
     }
 }
 
@@ -185,6 +185,6 @@ impl Lines {
         let shows_all = through == all && (all > 0.0 || leave.contains(&true));
         let asked = if shows_all { 1.0 } else { (through + 1.0) / (all + 2.0) };
         let inside = if all > 0.0 { through / all } else { 1.0 };
-        OpeningView { through: asked, hidden: inside * blocked as f64 / f64::from(looks) }
+        OpeningView { through: asked, surfaces_behind: inside * blocked as f64 / f64::from(looks) }
     }
 }

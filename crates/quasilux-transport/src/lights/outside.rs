@@ -254,7 +254,7 @@ impl<'a> OutsideLight<'a> {
 
     /// A direction through one point of the openings or to a bright pixel.
     fn sample_direction(&self, seen: &SeenPortals, place: Asking, u: [f64; 2]) -> Option<DVec3> {
-        match self.ask_bright(u) {
+        match self.sample_bright(u) {
             Ok(direction) => Some(direction),
             Err(u) => self.sample_portal(seen, place, u),
         }
@@ -310,7 +310,7 @@ impl<'a> OutsideLight<'a> {
 
     /// A bright pixel that a sample with this coordinate asks for, by two more; else the coordinate
     /// for other ways of asking.
-    pub(crate) fn ask_bright(&self, u: [f64; 2]) -> Result<DVec3, [f64; 2]> {
+    pub(crate) fn sample_bright(&self, u: [f64; 2]) -> Result<DVec3, [f64; 2]> {
         let share = self.bright_share();
         match &self.bright {
             Some(bright) if u[0] < share => Ok(bright.sample([u[0] / share, u[1]])),

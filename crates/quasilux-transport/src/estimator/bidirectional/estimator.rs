@@ -266,9 +266,9 @@ impl<S: Spectrum> Estimator for BidirectionalEstimator<'_, S> {
                 copies.put(out);
                 openings.put(out);
                 out.value(&[*emitters_found_by, *sky_found_by]);
-                let of_receivers = receivers
-                    .iter()
-                    .map(|it| [it.area_m2, it.per_sure_m2, it.view.through, it.view.hidden]);
+                let of_receivers = receivers.iter().map(|it| {
+                    [it.area_m2, it.per_sure_m2, it.view.through, it.view.surfaces_behind]
+                });
                 out.value(&of_receivers.collect::<Vec<[f64; 4]>>());
             }),
             ..Decisions::default()

@@ -66,7 +66,7 @@ pub(super) struct OnwardSample<S> {
 /// The part of the paths that a target leads. It absorbs nothing, so all others carry as much more
 /// as they are fewer.
 pub(super) fn led_at_target(view: OpeningView) -> f64 {
-    LED * view.hidden
+    LED * view.surfaces_behind
 }
 
 impl<S: Spectrum> Engine<'_, '_, S> {
@@ -83,7 +83,7 @@ impl<S: Spectrum> Engine<'_, '_, S> {
             Bsdf::Diffuse(_) => SPARE * place.own.map_or(0.0, absorbed).max(0.0),
             _ => 0.0,
         };
-        WayOut { place, through: view.through, led: (LED * view.hidden).min(spare) }
+        WayOut { place, through: view.through, led: (LED * view.surfaces_behind).min(spare) }
     }
 
     /// Of a target, at a place in it.
@@ -112,7 +112,7 @@ impl WayOut {
         outside: &OutsideLight<'_>,
         u: [f64; 2],
     ) -> Option<DrawnDirection> {
-        let (direction, through_sr) = match (outside.ask_bright(u), self.place.side) {
+        let (direction, through_sr) = match (outside.sample_bright(u), self.place.side) {
             (Ok(direction), _) => (direction, outside.through_pdf_sr(self.place, direction)),
             (Err(u), Some(n)) if u[0] >= self.through => {
                 let u = [(u[0] - self.through) / (1.0 - self.through), u[1]];
@@ -368,8 +368,8 @@ mod tests {
             let look =
                 |looks| OpeningView::look(engine.context, Stream::Survey(5), 0, place, looks);
             let (few, many) = (receiver.view, look(1 << 10).view);
-            assert!((few.hidden - many.hidden).abs() < 0.25, "{few:?}, {many:?}");
-            assert!(many.through == 1.0 && many.hidden > 0.1, "{many:?}");
+            assert!((few.surfaces_behind - many.surfaces_behind).abs() < 0.25, "{few:?}, {many:?}");
+            assert!(many.through == 1.0 && many.surfaces_behind > 0.1, "{many:?}");
         });
     }
 
