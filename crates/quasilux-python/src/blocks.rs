@@ -1,6 +1,7 @@
 //! Blocks of a run in several processes: the end that asks for them, and the one that traces them.
 
 use crate::error::{from_command_line, input_error};
+use crate::options::RunOptions;
 use crate::scene::Scene;
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
@@ -8,7 +9,6 @@ use pyo3::pybacked::PyBackedBytes;
 use pyo3::types::{PyBytes, PyIterator, PyList};
 use quasilux::embedded::{self, Order, Project, Source, trace_blocks};
 use quasilux_transport::{BlockTracer as Tracer, Received, StateError as BadState, Workers};
-use std::ffi::OsString;
 use std::ops::Range;
 use std::sync::Mutex;
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -29,8 +29,8 @@ pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
 
 /// SHA-256 of all that the blocks of a run depend on.
 #[pyfunction]
-fn identify_run(scene: &Bound<'_, Scene>, options: Vec<OsString>) -> PyResult<String> {
-    let order = Order::from_words(options).map_err(|error| from_command_line(&error))?;
+fn identify_run(scene: &Bound<'_, Scene>, options: RunOptions) -> PyResult<String> {
+    let order = Order::new(&options.into()).map_err(|error| from_command_line(&error))?;
     let identified = embedded::identify_run(&scene.get().project, &order);
     identified.map_err(|error| from_command_line(&error))
 }
@@ -50,14 +50,14 @@ pub(crate) struct BlockTracer {
 
 #[pymethods]
 impl BlockTracer {
-    /// Of a scene in bytes, with the options of a run as on the command line, and what identifies
-    /// the run where it was begun.
+    /// Of a scene in bytes, with the options of a run, and what identifies the run where it was
+    /// begun.
     #[new]
     #[pyo3(signature = (bundle, options, run))]
     fn new(
         py: Python<'_>,
         bundle: PyBackedBytes,
-        options: Vec<OsString>,
+        options: RunOptions,
         run: &str,
     ) -> PyResult<Self> {
         let (tasks, queue) = channel();
@@ -65,7 +65,7 @@ impl BlockTracer {
         py.detach(move || {
             let source = Source::from_bundle(&bundle).map_err(|error| from_command_line(&error))?;
             let project = Project::load(source).map_err(|error| from_command_line(&error))?;
-            let order = Order::from_words(options).map_err(|error| from_command_line(&error))?;
+            let order = Order::new(&options.into()).map_err(|error| from_command_line(&error))?;
             let own = embedded::identify_run(&project, &order);
             if own.map_err(|error| from_command_line(&error))? != run {
                 let message = "this process has another build of quasilux than the one that asks";

@@ -11,6 +11,7 @@ mod command_line;
 mod drawing;
 mod error;
 mod following;
+mod options;
 mod outcome;
 mod photometry;
 mod points;

@@ -3,13 +3,13 @@
 use crate::blocks::PythonWorkers;
 use crate::error::from_command_line;
 use crate::following::{self, Failure};
+use crate::options::{ResumeOptions, RunOptions};
 use crate::outcome::Outcome;
 use crate::progress::{Line, Reporter};
 use crate::scene::Scene;
 use pyo3::prelude::*;
 use quasilux::embedded::{self, Finished, Listener, Order, Project, ResumableRun};
 use quasilux_transport::Control;
-use std::ffi::OsString;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -23,19 +23,19 @@ pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
 /// What comes of a run.
 type Outcomes = Result<Finished, Failure>;
 
-/// Simulates a scene with options as on the command line. `callback` gets every
+/// Simulates a scene. `callback` gets every
 /// [`Progress`](crate::progress::Progress) and says whether to stop.
 #[pyfunction]
 #[pyo3(signature = (scene, options, callback=None, workers=None))]
 fn simulate(
     py: Python<'_>,
     scene: &Bound<'_, Scene>,
-    options: Vec<OsString>,
+    options: RunOptions,
     callback: Option<Py<PyAny>>,
     workers: Option<Py<PyAny>>,
 ) -> PyResult<Outcome> {
     let project = Arc::clone(&scene.get().project);
-    let order = Order::from_words(options).map_err(|error| from_command_line(&error))?;
+    let order = Order::new(&options.into()).map_err(|error| from_command_line(&error))?;
     let workers = workers.map(PythonWorkers::new);
     let run = move |project: &Project, listener: Listener<'_>| match workers {
         None => embedded::simulate(project, &order, Some(listener)).map_err(Failure::Refused),
@@ -50,11 +50,11 @@ fn simulate(
 fn resume(
     py: Python<'_>,
     checkpoint: PathBuf,
-    options: Vec<OsString>,
+    options: ResumeOptions,
     scene: Option<&Bound<'_, Scene>>,
     callback: Option<Py<PyAny>>,
 ) -> PyResult<Outcome> {
-    let kept = py.detach(|| ResumableRun::read(&checkpoint, options));
+    let kept = py.detach(|| ResumableRun::read(&checkpoint, &options.into()));
     let kept = kept.map_err(|error| from_command_line(&error))?;
     let project = match scene {
         Some(scene) => Arc::clone(&scene.get().project),

@@ -3,6 +3,7 @@
 use crate::arrays::read_only;
 use crate::error::from_command_line;
 use crate::following::{Failure, follow};
+use crate::options::YearOptions;
 use crate::progress::{Line, YearReporter};
 use crate::scene::Scene;
 use numpy::Element;
@@ -11,7 +12,6 @@ use pyo3::types::{PyBytes, PyDict};
 use quasilux::embedded::{self, FinishedYear, YearOrder};
 use quasilux_report::annual::{Calendar, GroupOfYear, Interval};
 use quasilux_sky::WeatherSky;
-use std::ffi::OsString;
 use std::sync::Arc;
 
 /// Adds the function to the module.
@@ -39,18 +39,18 @@ struct BlindsEntry<'py> {
     position: Bound<'py, PyAny>,
 }
 
-/// Simulates a year with options as on the command line. `callback` gets every
+/// Simulates a year. `callback` gets every
 /// [`YearProgress`](crate::progress::YearProgress) and says whether to stop.
 #[pyfunction]
 #[pyo3(signature = (scene, options, callback=None))]
 fn annual<'py>(
     py: Python<'py>,
     scene: &Bound<'py, Scene>,
-    options: Vec<OsString>,
+    options: YearOptions,
     callback: Option<Py<PyAny>>,
 ) -> PyResult<YearEntry<'py>> {
     let project = Arc::clone(&scene.get().project);
-    let order = YearOrder::from_words(options).map_err(|error| from_command_line(&error))?;
+    let order = YearOrder::new(&options.into()).map_err(|error| from_command_line(&error))?;
     let year = follow(py, callback, move |line: Line| {
         let reporter = YearReporter::new(line);
         let listener = |share: f64| reporter.tell(share);

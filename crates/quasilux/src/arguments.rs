@@ -9,18 +9,20 @@ mod photometry;
 mod points;
 mod refusal;
 mod sky;
-mod values;
+pub(crate) mod values;
 
-pub(crate) use annual::AnnualArguments;
+pub(crate) use annual::{
+    ABS_TOL as ABS_TOL_OF_YEAR, AnnualArguments, REL_TOL as REL_TOL_OF_YEAR, YearArguments,
+};
 pub(crate) use bsdf::{BsdfArguments, Incidence};
 pub(crate) use check::CheckArguments;
 pub(crate) use import::ImportArguments;
 pub(crate) use parts::{
-    MergeArguments, PlanArguments, PlannedArguments, ResumeArguments, ShardArguments,
+    MergeArguments, PlanArguments, PlannedArguments, ResumeArguments, ShardArguments, WorkArguments,
 };
 pub(crate) use photometry::{DiagramName, PhotometryArguments};
 pub(crate) use points::PointsArguments;
-pub(crate) use refusal::{refusal, unknown_command};
+pub(crate) use refusal::{refusal, refused, unknown_command};
 pub(crate) use sky::{Days, SkyArguments};
 
 use crate::build::{COMMIT, VERSION};
@@ -35,7 +37,10 @@ use quasilux_transport::{EstimatorKind, IntervalKind, ToleranceOn, UnseenToleran
 use std::path::PathBuf;
 use std::sync::LazyLock;
 use std::time::Duration;
-use values::{duration, illuminance, level, one_of, share, unseen_tolerance, whole};
+use values::{
+    RAYS, SAMPLES, SEEDS, THREADS, duration, illuminance, level, one_of, share, unseen_tolerance,
+    whole,
+};
 
 /// How many lux, and how sure: a lighting simulator.
 #[derive(Debug, Parser)]
@@ -132,7 +137,7 @@ pub(crate) struct RunArguments {
 }
 
 /// Where results go.
-#[derive(Debug, Args)]
+#[derive(Debug, Default, Args)]
 pub(crate) struct OutputArguments {
     /// Folder for the results [default: out/NAME, NAME being the project file's]
     #[arg(long, value_name = "DIR")]
@@ -145,6 +150,9 @@ pub(crate) struct OutputArguments {
     pub(crate) quiet: bool,
 }
 
+/// How often a run is kept, at most, where nothing is said.
+pub(crate) const CHECKPOINT_EVERY: &str = "5s";
+
 /// Whether a run is kept on disk.
 #[derive(Debug, Args)]
 pub(crate) struct CheckpointArguments {
@@ -152,7 +160,7 @@ pub(crate) struct CheckpointArguments {
     #[arg(long, value_name = "FILE")]
     pub(crate) checkpoint: Option<PathBuf>,
     /// How often to keep it, at most
-    #[arg(long, value_name = "TIME", value_parser = duration, default_value = "5s")]
+    #[arg(long, value_name = "TIME", value_parser = duration, default_value = CHECKPOINT_EVERY)]
     pub(crate) checkpoint_every: Duration,
 }
 
@@ -184,10 +192,10 @@ pub(crate) struct SimulationArguments {
     #[arg(long, value_name = "TIME", value_parser = duration)]
     pub(crate) time: Option<Duration>,
     /// Stop after this many indices per replicate: photons, and paths for each sensor point
-    #[arg(long, value_name = "N", value_parser = whole::<u64>(1..=1 << 48))]
+    #[arg(long, value_name = "N", value_parser = whole(SAMPLES))]
     pub(crate) samples: Option<u64>,
     /// Stop before more rays are traced, at the last completed checkpoint
-    #[arg(long, value_name = "N", value_parser = whole::<u64>(1..=u64::MAX))]
+    #[arg(long, value_name = "N", value_parser = whole(RAYS))]
     pub(crate) rays: Option<u64>,
     /// How light is followed [default: the project's, or else auto]
     #[arg(
@@ -201,10 +209,10 @@ pub(crate) struct SimulationArguments {
     #[arg(long, value_name = "NAME", value_parser = one_of(&Sequence::all_for(1), Sequence::name))]
     pub(crate) sequence: Option<String>,
     /// Number of threads [default: all cores]
-    #[arg(long, value_name = "N", value_parser = whole::<u16>(1..=1024))]
+    #[arg(long, value_name = "N", value_parser = whole(THREADS))]
     pub(crate) threads: Option<u16>,
     /// Seed of all randomisations [default: the project's, or else 1]
-    #[arg(long, value_name = "N", value_parser = whole::<u64>(0..=u64::MAX))]
+    #[arg(long, value_name = "N", value_parser = whole(SEEDS))]
     pub(crate) seed: Option<u64>,
 }
 
@@ -235,7 +243,7 @@ pub(crate) struct ExperimentArguments {
     #[arg(long, value_name = "TIME", value_parser = duration)]
     pub(crate) seconds_per_point: Option<Duration>,
     /// Seed of all randomisations; the first one where there are several
-    #[arg(long, value_name = "N", default_value = "0", value_parser = whole::<u64>(0..=u64::MAX))]
+    #[arg(long, value_name = "N", default_value = "0", value_parser = whole(SEEDS))]
     pub(crate) seed: u64,
 }
 

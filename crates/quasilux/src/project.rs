@@ -1,6 +1,6 @@
 //! A loaded project, and the settings that follow from it and the command line.
 
-use crate::arguments::{AnnualArguments, SimulationArguments};
+use crate::arguments::{SimulationArguments, YearArguments};
 use crate::digest::SceneIdentity;
 use crate::exit::CliError;
 use crate::forecast;
@@ -117,7 +117,7 @@ pub(crate) fn settings(
 /// When a name is unknown, or the settings make no sense together.
 pub(crate) fn annual_settings(
     project: &Project,
-    arguments: &AnnualArguments,
+    arguments: &YearArguments,
 ) -> Result<Settings, CliError> {
     let section = &project.loaded.simulation;
     let mut settings = Settings::default();

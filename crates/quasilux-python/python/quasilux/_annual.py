@@ -6,7 +6,7 @@ import os
 from typing import TYPE_CHECKING
 
 from quasilux import _native
-from quasilux._options import Options
+from quasilux._options import YearOptions
 from quasilux._simulation import as_scene, watching
 from quasilux._year import Year
 
@@ -88,18 +88,19 @@ def annual(
     >>> plane.sda.low <= plane.sda.value <= plane.sda.high
     True
     """
-    options = Options()
-    options.share("rel-tol", "rel_tol", rel_tol)
-    options.number("abs-tol", "abs_tol_lx", abs_tol_lx)
-    options.share("confidence", "confidence", confidence)
-    options.whole("samples", "samples", samples)
-    options.span("occupied", "occupied_h", occupied_h)
-    options.whole("seed", "seed", seed)
-    options.whole("threads", "threads", threads)
+    options = YearOptions(
+        rel_tol=rel_tol,
+        abs_tol_lx=abs_tol_lx,
+        confidence=confidence,
+        samples=samples,
+        occupied_h=occupied_h,
+        seed=seed,
+        threads=threads,
+    )
     scene = as_scene(scene)
     with watching(progress) as callback:
         try:
-            entry = _native.annual(scene._native, options.words, callback)
+            entry = _native.annual(scene._native, options, callback)
         except _native.InputError as error:
             raise scene._origins.error(error) from None
     shapes = {name: place.shape for name, place in scene.sensors.items()}

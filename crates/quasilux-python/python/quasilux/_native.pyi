@@ -9,6 +9,8 @@ from typing import Any, Literal, TypedDict, final, type_check_only
 import numpy as np
 from numpy.typing import NDArray
 
+from quasilux._options import ResumeOptions, RunOptions, YearOptions
+
 __version__: str
 
 __all__ = [
@@ -202,13 +204,13 @@ class Outcome:
 
 def simulate(
     scene: Scene,
-    options: Sequence[str],
+    options: RunOptions,
     callback: Callable[[Progress], object] | None = None,
     workers: object | None = None,
 ) -> Outcome: ...
 def resume(
     checkpoint: str | os.PathLike[str],
-    options: Sequence[str],
+    options: ResumeOptions,
     scene: Scene | None = None,
     callback: Callable[[Progress], object] | None = None,
 ) -> Outcome: ...
@@ -247,7 +249,7 @@ class YearEntry(TypedDict):
 
 def annual(
     scene: Scene,
-    options: Sequence[str],
+    options: YearOptions,
     callback: Callable[[YearProgress], object] | None = None,
 ) -> YearEntry: ...
 
@@ -593,7 +595,7 @@ class StateError(ValueError):
 
 @final
 class BlockTracer:
-    def __new__(cls, bundle: bytes, options: Sequence[str], run: str) -> BlockTracer: ...
+    def __new__(cls, bundle: bytes, options: RunOptions, run: str) -> BlockTracer: ...
     def trace(self, frame: bytes, start: int, end: int) -> bytes: ...
 
-def identify_run(scene: Scene, options: Sequence[str]) -> str: ...
+def identify_run(scene: Scene, options: RunOptions) -> str: ...

@@ -7,7 +7,7 @@ import warnings
 from typing import TYPE_CHECKING, Any, Literal
 
 from quasilux import _native
-from quasilux._options import Options
+from quasilux._options import ResumeOptions, RunOptions
 from quasilux._origins import Origins
 from quasilux._scene import Scene, load
 
@@ -40,7 +40,7 @@ def simulate(
     strict: bool = False,
     progress: bool | Callback | None = None,
     checkpoint: str | os.PathLike[str] | None = None,
-    checkpoint_every_s: float = 5.0,
+    checkpoint_every_s: float | None = None,
 ) -> Result:
     """Simulate a scene until every sensor point is known to the wanted tolerance.
 
@@ -90,7 +90,7 @@ def simulate(
         Keep the run in this file while it goes, for `resume`; a scene that is in no project file
         is kept beside it, in FILE.scene.
     checkpoint_every_s : float, default 5.0
-        How often, at most, in s.
+        How often it is kept, at most, in s.
 
     Returns
     -------
@@ -123,8 +123,7 @@ def simulate(
     """
     from quasilux._result import Result
 
-    options = Options()
-    options.run(
+    options = RunOptions(
         rel_tol=rel_tol,
         abs_tol_lx=abs_tol_lx,
         unseen_tol=unseen_tol,
@@ -137,16 +136,15 @@ def simulate(
         estimator=estimator,
         sequence=sequence,
         seed=seed,
+        threads=threads,
+        strict=strict,
+        checkpoint=checkpoint,
+        checkpoint_every_s=checkpoint_every_s,
     )
-    options.whole("threads", "threads", threads)
-    options.flag("strict", strict)
-    if checkpoint is not None:
-        options.path("checkpoint", "checkpoint", checkpoint)
-        options.number("checkpoint-every", "checkpoint_every_s", checkpoint_every_s)
     scene = as_scene(scene)
     with watching(progress) as callback:
         try:
-            outcome = _native.simulate(scene._native, options.words, callback)
+            outcome = _native.simulate(scene._native, options, callback)
         except _native.InputError as error:
             raise scene._origins.error(error) from None
     tell_remarks(outcome)
@@ -160,7 +158,7 @@ def resume(
     time_s: float | None = None,
     threads: int | None = None,
     progress: bool | Callback | None = None,
-    checkpoint_every_s: float = 5.0,
+    checkpoint_every_s: float | None = None,
 ) -> Result:
     """Go on with a run that was kept, to the bits that it would have had.
 
@@ -190,15 +188,14 @@ def resume(
     """
     from quasilux._result import Result
 
-    options = Options()
-    options.number("time", "time_s", time_s)
-    options.whole("threads", "threads", threads)
-    options.number("checkpoint-every", "checkpoint_every_s", checkpoint_every_s)
+    options = ResumeOptions(
+        time_s=time_s, threads=threads, checkpoint_every_s=checkpoint_every_s
+    )
     found = None if scene is None else as_scene(scene)
     origins = Origins() if found is None else found._origins
     native = None if found is None else found._native
     with watching(progress) as callback:
-        outcome = _native.resume(os.fspath(checkpoint), options.words, native, callback)
+        outcome = _native.resume(os.fspath(checkpoint), options, native, callback)
     tell_remarks(outcome)
     return Result(outcome, origins)
 

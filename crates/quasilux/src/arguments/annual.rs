@@ -2,7 +2,9 @@
 
 use super::OutputArguments;
 use super::parts::{Slice, slice};
-use super::values::{hours_of_day, illuminance, level, share, whole};
+use super::values::{
+    SAMPLES_OF_YEAR, SEEDS, THREADS, hours_of_day, illuminance, level, share, whole,
+};
 use clap::Args;
 use std::ops::Range;
 use std::path::PathBuf;
@@ -14,27 +16,8 @@ pub(crate) struct AnnualArguments {
     /// The weather file of a Honeybee model, EPW or WEA
     #[arg(long, value_name = "FILE")]
     pub(crate) weather: Option<PathBuf>,
-    /// Wanted root mean square over hours of half-width over value, like 1% or 0.01
-    #[arg(long, value_name = "SHARE", value_parser = share, default_value = "2%")]
-    pub(crate) rel_tol: f64,
-    /// Half-width in lx that is enough in any hour, like 0.5 or 0.5lx
-    #[arg(long, value_name = "LUX", value_parser = illuminance, default_value = "1lx")]
-    pub(crate) abs_tol: f64,
-    /// Confidence level of the intervals, like 95% or 0.99
-    #[arg(long, value_name = "SHARE", value_parser = level)]
-    pub(crate) confidence: Option<f64>,
-    /// Paths of each sensor point in each replicate, at most
-    #[arg(long, value_name = "N", value_parser = whole::<u64>(1..=1 << 30))]
-    pub(crate) samples: Option<u64>,
-    /// When people are there, by the clock of the site [default: the project's, or else 8-18]
-    #[arg(long, value_name = "FROM-TO", value_parser = hours_of_day)]
-    pub(crate) occupied: Option<Range<f64>>,
-    /// Number of threads [default: all cores]
-    #[arg(long, value_name = "N", value_parser = whole::<u16>(1..=1024))]
-    pub(crate) threads: Option<u16>,
-    /// Seed of all randomisations [default: the project's, or else 1]
-    #[arg(long, value_name = "N", value_parser = whole::<u64>(0..=u64::MAX))]
-    pub(crate) seed: Option<u64>,
+    #[command(flatten)]
+    pub(crate) year: YearArguments,
     /// Keep the year in this file while it goes, for `resume` and `merge`
     #[arg(long, value_name = "FILE")]
     pub(crate) checkpoint: Option<PathBuf>,
@@ -45,4 +28,35 @@ pub(crate) struct AnnualArguments {
     pub(crate) shard: Option<Slice>,
     #[command(flatten)]
     pub(crate) output: OutputArguments,
+}
+
+/// The tolerance of a year where nothing is said.
+pub(crate) const REL_TOL: &str = "2%";
+/// The illuminance that is enough in any hour of a year where nothing is said.
+pub(crate) const ABS_TOL: &str = "1lx";
+
+/// Options of a year that go before what the project file says.
+#[derive(Debug, Args)]
+pub(crate) struct YearArguments {
+    /// Wanted root mean square over hours of half-width over value, like 1% or 0.01
+    #[arg(long, value_name = "SHARE", value_parser = share, default_value = REL_TOL)]
+    pub(crate) rel_tol: f64,
+    /// Half-width in lx that is enough in any hour, like 0.5 or 0.5lx
+    #[arg(long, value_name = "LUX", value_parser = illuminance, default_value = ABS_TOL)]
+    pub(crate) abs_tol: f64,
+    /// Confidence level of the intervals, like 95% or 0.99
+    #[arg(long, value_name = "SHARE", value_parser = level)]
+    pub(crate) confidence: Option<f64>,
+    /// Paths of each sensor point in each replicate, at most
+    #[arg(long, value_name = "N", value_parser = whole(SAMPLES_OF_YEAR))]
+    pub(crate) samples: Option<u64>,
+    /// When people are there, by the clock of the site [default: the project's, or else 8-18]
+    #[arg(long, value_name = "FROM-TO", value_parser = hours_of_day)]
+    pub(crate) occupied: Option<Range<f64>>,
+    /// Number of threads [default: all cores]
+    #[arg(long, value_name = "N", value_parser = whole(THREADS))]
+    pub(crate) threads: Option<u16>,
+    /// Seed of all randomisations [default: the project's, or else 1]
+    #[arg(long, value_name = "N", value_parser = whole(SEEDS))]
+    pub(crate) seed: Option<u64>,
 }

@@ -1,7 +1,7 @@
 //! What can be said to `plan`, `shard`, `merge` and `resume`.
 
-use super::OutputArguments;
-use super::values::{duration, one_of, whole};
+use super::values::{THREADS, duration, one_of, whole};
+use super::{CHECKPOINT_EVERY, OutputArguments};
 use clap::{ArgGroup, Args};
 use quasilux_sampling::Sequence;
 use quasilux_transport::EstimatorKind;
@@ -34,7 +34,7 @@ pub(crate) struct PlannedArguments {
 #[derive(Debug, Args)]
 pub(crate) struct WorkArguments {
     /// Number of threads [default: all cores]
-    #[arg(long, value_name = "N", value_parser = whole::<u16>(1..=1024))]
+    #[arg(long, value_name = "N", value_parser = whole(THREADS))]
     pub(crate) threads: Option<u16>,
 }
 
@@ -105,7 +105,7 @@ pub(crate) struct ResumeArguments {
     #[arg(long, value_name = "TIME", value_parser = duration)]
     pub(crate) time: Option<Duration>,
     /// How often to keep the run, at most
-    #[arg(long, value_name = "TIME", value_parser = duration, default_value = "5s")]
+    #[arg(long, value_name = "TIME", value_parser = duration, default_value = CHECKPOINT_EVERY)]
     pub(crate) checkpoint_every: Duration,
     #[command(flatten)]
     pub(crate) output: OutputArguments,

@@ -2,6 +2,7 @@
 //! and what was expected, and the nearest name.
 
 use super::Arguments;
+use super::values::none_of;
 use clap::Error;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use std::error::Error as _;
@@ -33,6 +34,11 @@ pub(crate) fn refusal(error: &Error) -> Option<String> {
 fn unreadable(error: &Error) -> String {
     let (name, value) = (argument(error), word(error, ContextKind::InvalidValue));
     let why = error.source().map(ToString::to_string).unwrap_or_default();
+    refused(&name, &value, &why)
+}
+
+/// What is wrong with the value of an option, and what was expected.
+pub(crate) fn refused(name: &str, value: &str, why: &str) -> String {
     match why.starts_with("expected ") {
         true => format!("{name} is \"{value}\"; {why}"),
         false => format!("{name}: {why}"),
@@ -48,8 +54,8 @@ fn outside(error: &Error) -> String {
         let wanted = whole.split_once(' ').map_or(known.as_str(), |(_, wanted)| wanted);
         return format!("{name} lacks its value; expected {wanted}");
     }
-    let nearest = nearest(error, ContextKind::SuggestedValue);
-    format!("{name} is \"{value}\"; expected one of {known}{nearest}")
+    let nearest = words(error, ContextKind::SuggestedValue).into_iter().next();
+    refused(&name, &value, &none_of(&known, nearest.as_deref()))
 }
 
 fn unknown_argument(error: &Error) -> String {

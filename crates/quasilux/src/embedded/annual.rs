@@ -1,31 +1,25 @@
 //! The daylight of a year.
 
-use super::run::parse;
-use crate::arguments::{AnnualArguments, Command};
+use super::options::YearOptions;
+use crate::arguments::YearArguments;
 use crate::commands::{FinishedYear, YearListener, year_in_memory};
 use crate::exit::CliError;
 use crate::kernel;
 use crate::project::Project;
-use std::ffi::OsString;
-use std::path::Path;
 
-/// Options of a year.
+/// What is asked of a year.
 #[derive(Debug)]
-pub struct YearOrder(AnnualArguments);
+pub struct YearOrder(YearArguments);
 
 impl YearOrder {
-    /// From options of `quasilux annual`, such as `--occupied=8-18`. Where results go, and whether
-    /// and which part of the year is kept, is not asked.
+    /// Checks options as `quasilux annual` does.
     ///
     /// # Errors
-    /// When an option is unknown or its value makes no sense, in the words of the command line; or
-    /// when `QUASILUX_KERNEL` names no ray kernel of this machine.
-    pub fn from_words(words: impl IntoIterator<Item = OsString>) -> Result<Self, CliError> {
+    /// When a value makes no sense, with the name of its field and what was expected; or when
+    /// `QUASILUX_KERNEL` names no ray kernel of this machine.
+    pub fn new(options: &YearOptions) -> Result<Self, CliError> {
         kernel::choose()?;
-        match parse("annual", Path::new("scene"), words)? {
-            Command::Annual(arguments) => Ok(Self(arguments)),
-            _ => Err(CliError::new("no year")),
-        }
+        options.arguments().map(Self)
     }
 }
 

@@ -21,7 +21,7 @@ pub fn simulate_with_workers(
     listener: Option<Listener<'_>>,
     workers: &mut (dyn Workers + Send),
 ) -> Result<Finished, CliError> {
-    let settings = project::settings(project, &order.0.simulation)?;
+    let settings = project::settings(project, &order.simulation)?;
     let simulate = |prepared: &PreparedScene<'_>, watcher: &mut Watcher<'_>| {
         let scene = prepared.clone();
         quasilux_transport::simulate_with_workers(scene, &settings, None, watcher, workers)
@@ -35,7 +35,7 @@ pub fn simulate_with_workers(
 /// # Errors
 /// When the options make no sense for the scene.
 pub fn identify_run(project: &Project, order: &Order) -> Result<String, CliError> {
-    let settings = project::settings(project, &order.0.simulation)?;
+    let settings = project::settings(project, &order.simulation)?;
     let content = (VERSION, BUILD, &project.identity.sha256, &settings);
     Ok(sha256_hex(json::text(&content).as_bytes()))
 }
@@ -50,8 +50,8 @@ pub fn trace_blocks<T: Send>(
     order: &Order,
     work: impl FnOnce(&mut BlockTracer<'_>) -> T + Send,
 ) -> Result<T, CliError> {
-    let settings = project::settings(project, &order.0.simulation)?;
+    let settings = project::settings(project, &order.simulation)?;
     let scene = &project.loaded.scene;
     let trace = || quasilux_transport::trace_blocks(scene, &settings, work);
-    Ok(pool(count(order.0.simulation.threads))?.install(trace))
+    Ok(pool(count(order.simulation.threads))?.install(trace))
 }

@@ -1,13 +1,12 @@
 //! Runs that go on from their checkpoints.
 
-use super::run::parse;
-use crate::arguments::{Command, ResumeArguments};
+use super::options::ResumeOptions;
+use crate::arguments::ResumeArguments;
 use crate::checkpoint::{self, Latest};
 use crate::commands::{Finished, KeptRun};
 use crate::exit::CliError;
 use crate::project::Project;
 use crate::watcher::Listener;
-use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 /// A run that was kept, and the options with which it goes on.
@@ -19,17 +18,12 @@ pub struct ResumableRun {
 }
 
 impl ResumableRun {
-    /// Reads a checkpoint; the options are those of `quasilux resume`, such as `--time=60`.
+    /// Reads a checkpoint, and checks the options as `quasilux resume` does.
     ///
     /// # Errors
     /// When an option makes no sense, or there is no checkpoint of this program.
-    pub fn read(
-        checkpoint: &Path,
-        words: impl IntoIterator<Item = OsString>,
-    ) -> Result<Self, CliError> {
-        let Command::Resume(arguments) = parse("resume", checkpoint, words)? else {
-            return Err(CliError::new("no run"));
-        };
+    pub fn read(checkpoint: &Path, options: &ResumeOptions) -> Result<Self, CliError> {
+        let arguments = options.arguments(checkpoint)?;
         let latest = checkpoint::read(&arguments.checkpoint)?;
         let file = latest.checkpoint.heading.project_file(&arguments)?;
         Ok(Self { arguments, latest, file })

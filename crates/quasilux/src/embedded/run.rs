@@ -1,6 +1,7 @@
 //! Runs, and their results as files.
 
-use crate::arguments::{self, Arguments, Command, RunArguments, SimulationArguments};
+use super::options::RunOptions;
+use crate::arguments::{CheckpointArguments, SimulationArguments};
 use crate::checkpoint::{CheckpointWriter, RunPaths};
 use crate::commands::{Finished, Folder, Job, count, work};
 use crate::door::Door;
@@ -11,45 +12,29 @@ use crate::project::{self, Project};
 use crate::results::{self, ResultFile};
 use crate::source::from_the_root;
 use crate::watcher::{Listener, Watcher};
-use clap::Parser;
 use quasilux_report::PictureOf;
 use quasilux_transport::{PreparedScene, Settings};
-use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 /// What is asked of a run.
 #[derive(Debug)]
-pub struct Order(pub(super) RunArguments);
-
-impl Order {
-    /// From options as they stand on the command line, such as `--rel-tol=0.01`. Where results go
-    /// and what is printed is not asked of such a run.
-    ///
-    /// # Errors
-    /// When an option is unknown or its value makes no sense, in the words of the command line; or
-    /// when `QUASILUX_KERNEL` names no ray kernel of this machine.
-    pub fn from_words(words: impl IntoIterator<Item = OsString>) -> Result<Self, CliError> {
-        kernel::choose()?;
-        match parse("run", Path::new("scene"), words)? {
-            Command::Run(arguments) => Ok(Self(arguments)),
-            _ => Err(CliError::new("no run")),
-        }
-    }
+pub struct Order {
+    pub(super) simulation: SimulationArguments,
+    keeping: CheckpointArguments,
+    strict: bool,
 }
 
-/// A command with its options.
-pub(super) fn parse(
-    command: &str,
-    first: &Path,
-    words: impl IntoIterator<Item = OsString>,
-) -> Result<Command, CliError> {
-    // What comes after two dashes is no option.
-    let all = ["quasilux", command].map(OsString::from).into_iter().chain(words);
-    let all = all.chain(["--".into(), first.into()]);
-    let parsed = Arguments::try_parse_from(all).map(|arguments| arguments.command);
-    parsed.map_err(|error| {
-        CliError::new(arguments::refusal(&error).unwrap_or_else(|| error.to_string()))
-    })
+impl Order {
+    /// Checks options as `quasilux run` does.
+    ///
+    /// # Errors
+    /// When a value makes no sense, with the name of its field and what was expected; or when
+    /// `QUASILUX_KERNEL` names no ray kernel of this machine.
+    pub fn new(options: &RunOptions) -> Result<Self, CliError> {
+        kernel::choose()?;
+        let (simulation, keeping) = (options.simulation()?, options.keeping()?);
+        Ok(Self { simulation, keeping, strict: options.strict })
+    }
 }
 
 /// Simulates a project, as `quasilux run` does, up to the wanted tolerance or a limit, or until the
@@ -63,7 +48,7 @@ pub fn simulate(
     order: &Order,
     listener: Option<Listener<'_>>,
 ) -> Result<Finished, CliError> {
-    let settings = project::settings(project, &order.0.simulation)?;
+    let settings = project::settings(project, &order.simulation)?;
     let simulate = |prepared: &PreparedScene<'_>, watcher: &mut Watcher<'_>| {
         Ok(Some(quasilux_transport::simulate(prepared.clone(), &settings, watcher)))
     };
@@ -74,23 +59,23 @@ pub fn simulate(
 pub(super) fn perform(
     project: &Project,
     settings: &Settings,
-    Order(arguments): &Order,
+    order: &Order,
     listener: Option<Listener<'_>>,
     job: Job<'_>,
 ) -> Result<Finished, CliError> {
-    let SimulationArguments { time, threads, .. } = arguments.simulation;
+    let SimulationArguments { time, threads, .. } = order.simulation;
     let forecast = Forecast::new(&project.loaded, settings, count(threads));
     let mut watcher = Watcher::new(forecast, time, true).listened_to(listener);
-    if let Some(path) = &arguments.keeping.checkpoint {
+    if let Some(path) = &order.keeping.checkpoint {
         let file = kept_project(path, project);
         let kept = RunPaths { file: &file, out: &Folder::by_name(&file), settings };
         let writer = CheckpointWriter::fresh(path, project, kept)?;
         if project.source.path.is_none() {
             results::write_atomic(&file, &project.to_bundle()?)?;
         }
-        watcher = watcher.checkpoints(writer, arguments.keeping.checkpoint_every);
+        watcher = watcher.checkpoints(writer, order.keeping.checkpoint_every);
     }
-    let door = Door { strict: arguments.strict, announces: false };
+    let door = Door { strict: order.strict, announces: false };
     work(project, door, watcher, job)?.ok_or_else(|| CliError::new("the run has no results"))
 }
 

@@ -1,9 +1,8 @@
 //! `quasilux annual`: the hours of weather files.
 
 use crate::support::{Folder, number, parsed};
-use quasilux::embedded::{self, Project, YearFile, YearOrder};
+use quasilux::embedded::{self, Project, Share, YearFile, YearOptions, YearOrder};
 use quasilux_transport::Control;
-use std::ffi::OsString;
 
 /// A day and a bit more, hour by hour: illuminances of sun and sky at noon, and nothing known but
 /// darkness else.
@@ -92,7 +91,12 @@ fn a_year_in_memory_has_the_files_of_the_command_line() {
     let done = folder.quasilux(&[&command[..], &words].concat());
     assert_eq!(done.code, Some(0), "{}", done.stderr);
     let project = Project::open(&folder.path("a.toml")).unwrap();
-    let order = YearOrder::from_words(words.map(OsString::from)).unwrap();
+    let options = YearOptions {
+        rel_tol: Some(Share::Text("5%".to_owned())),
+        occupied_h: Some(8.0..18.0),
+        ..YearOptions::default()
+    };
+    let order = YearOrder::new(&options).unwrap();
     let year = embedded::annual(&project, &order, None).unwrap();
     assert!(year.is_complete && year.table.contains("sDA (300 lx, 50 %)"), "{}", year.table);
     let theirs = std::fs::read_dir(folder.path("out")).unwrap();

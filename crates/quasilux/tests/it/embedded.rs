@@ -2,9 +2,11 @@
 
 use crate::scenes::{Look, write_room};
 use crate::support::{Folder, without_seconds_and_threads};
-use quasilux::embedded::{Event, Order, Project, ResumableRun, Source, Stopped, simulate, write};
+use quasilux::embedded::{
+    Event, Order, Project, ResumableRun, ResumeOptions, RunOptions, Share, Source, Stopped,
+    simulate, write,
+};
 use quasilux_transport::Control;
-use std::ffi::OsString;
 use std::path::Path;
 
 const OPTIONS: [&str; 2] = ["--rel-tol=1e-9", "--samples=64"];
@@ -15,8 +17,14 @@ fn room(name: &str) -> Folder {
     folder
 }
 
-fn order(options: &[&str]) -> Order {
-    Order::from_words(options.iter().map(OsString::from)).expect("options of a run")
+/// Those of [`OPTIONS`].
+fn options() -> RunOptions {
+    let rel_tol = Some(Share::Number(1e-9));
+    RunOptions { rel_tol, samples: Some(64), ..RunOptions::default() }
+}
+
+fn order(options: &RunOptions) -> Order {
+    Order::new(options).expect("options of a run")
 }
 
 /// The room as a program would have it in memory.
@@ -41,7 +49,7 @@ fn results_are_those_of_the_command_line() {
         .unwrap(),
     ];
     for project in sources {
-        let finished = simulate(&project, &order(&OPTIONS), None).unwrap();
+        let finished = simulate(&project, &order(&options()), None).unwrap();
         assert_eq!((finished.stopped, finished.exit.code()), (None, 3));
         write(&folder.path("ours"), &project, &finished).unwrap();
         let own = folder.read("ours/result.json");
@@ -55,7 +63,6 @@ fn results_are_those_of_the_command_line() {
 fn a_listener_stops_a_run_at_a_checkpoint_and_it_goes_on() {
     let folder = room("embedded_stopped");
     let project = Project::load(in_memory(&folder)).unwrap();
-    let kept = format!("--checkpoint={}", folder.path("run.ck").display());
     let mut samples = Vec::new();
     let listen = |event: Event<'_>| match event {
         Event::Progress(_) => Control::Continue,
@@ -64,14 +71,14 @@ fn a_listener_stops_a_run_at_a_checkpoint_and_it_goes_on() {
             if estimates.samples < 32 { Control::Continue } else { Control::Stop }
         }
     };
-    let options = order(&[&OPTIONS[..], &[&kept]].concat());
+    let options = order(&RunOptions { checkpoint: Some(folder.path("run.ck")), ..options() });
     let stopped = simulate(&project, &options, Some(Box::new(listen))).unwrap();
     assert_eq!((stopped.stopped, stopped.report.run.samples), (Some(Stopped::Listener), 32));
     assert_eq!(samples, [1, 2, 4, 8, 16, 32]);
     let expected = folder.document("room.toml", "whole", &OPTIONS, 3);
     std::fs::copy(folder.path("run.ck"), folder.path("other.ck")).unwrap();
-    let words = ["--threads=1"].map(OsString::from);
-    let on = ResumableRun::read(&folder.path("run.ck"), words).unwrap();
+    let one_thread = ResumeOptions { threads: Some(1), ..ResumeOptions::default() };
+    let on = ResumableRun::read(&folder.path("run.ck"), &one_thread).unwrap();
     assert_eq!(on.project_file(), folder.path("run.ck.scene"));
     let finished = on.go_on(&project, None).unwrap();
     let sensors = |text: &str| text[..text.find("\"run\"").expect("a run")].to_owned();
@@ -100,16 +107,15 @@ fn bundles_are_projects_for_the_command_line() {
 }
 
 #[test]
-fn what_makes_no_sense_is_told_in_the_words_of_the_command_line() {
+fn what_makes_no_sense_is_told() {
     let folder = room("embedded_refused");
-    let refusal = |options: &[&str]| {
-        let words = options.iter().map(OsString::from);
-        Order::from_words(words).expect_err("a refusal").to_string()
-    };
-    assert!(refusal(&["--rel-tol=2"]).contains("was 2 % meant?"));
-    assert!(refusal(&["--wrong=2"]).contains("unknown option \"--wrong\""));
+    let doubtful = RunOptions { rel_tol: Some(Share::Number(2.0)), ..RunOptions::default() };
+    let error = Order::new(&doubtful).expect_err("a refusal").to_string();
+    assert!(error.starts_with("rel_tol: ") && error.contains("was 2 % meant?"), "{error}");
     let project = Project::open(&folder.path("room.toml")).unwrap();
-    let error = simulate(&project, &order(&["--sequence=hammersley"]), None).err();
+    let hammersley =
+        RunOptions { sequence: Some("hammersley".to_owned()), ..RunOptions::default() };
+    let error = simulate(&project, &order(&hammersley), None).err();
     let error = error.expect("a refusal");
     assert!(error.message().contains("give --samples") && error.file().is_none(), "{error}");
     let missing = Project::open(Path::new("none.toml")).err().expect("a refusal");

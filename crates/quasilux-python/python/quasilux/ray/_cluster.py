@@ -12,6 +12,7 @@ import numpy as np
 import ray
 
 from quasilux import _native
+from quasilux._options import RunOptions
 from quasilux.ray._parts import Parts
 
 logger = logging.getLogger("quasilux.ray")
@@ -68,7 +69,7 @@ class Cluster:
     bundle
         The scene in bytes, as it is pickled.
     options
-        The options of the run, as on the command line.
+        The options of the run, with the threads of a task.
     run
         What tells this run from others.
     parts
@@ -85,7 +86,7 @@ class Cluster:
     def __init__(
         self,
         bundle: bytes,
-        options: list[str],
+        options: RunOptions,
         *,
         run: str,
         parts: Parts | None,

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import dataclasses
 import logging
 import os
 from typing import TYPE_CHECKING, Any, Literal
 
 from quasilux import _native
-from quasilux._options import Options
+from quasilux._options import RunOptions
 from quasilux._result import Result
 from quasilux._simulation import as_scene, tell_remarks, watching
 
@@ -101,8 +102,7 @@ def simulate(
         if isinstance(value, bool) or not isinstance(value, int) or value < 1:
             raise ValueError(f"{name} is {value!r}; expected a whole number of 1 or more")
     scene = as_scene(scene)
-    options = Options()
-    options.run(
+    options = RunOptions(
         rel_tol=rel_tol,
         abs_tol_lx=abs_tol_lx,
         unseen_tol=unseen_tol,
@@ -115,17 +115,16 @@ def simulate(
         estimator=estimator,
         sequence=sequence,
         seed=seed,
+        strict=strict,
     )
-    of_blocks = [*options.words, f"--threads={num_cpus}"]
-    options.flag("strict", strict)
     try:
-        run = _native.identify_run(scene._native, options.words)
+        run = _native.identify_run(scene._native, options)
         if not ray.is_initialized():
             ray.init()
         parts = None if directory is None else Parts(directory, run[:32])
         cluster = Cluster(
             scene._native.to_bundle(),
-            of_blocks,
+            dataclasses.replace(options, threads=num_cpus),
             run=run,
             parts=parts,
             num_cpus=num_cpus,
@@ -133,7 +132,7 @@ def simulate(
         )
         with watching(progress) as callback:
             told = _Told(callback)
-            outcome = _native.simulate(scene._native, options.words, told, cluster)
+            outcome = _native.simulate(scene._native, options, told, cluster)
     except _native.InputError as error:
         raise scene._origins.error(error) from None
     logger.info("done: %d blocks traced, %d found on disk", cluster.traced, cluster.found)

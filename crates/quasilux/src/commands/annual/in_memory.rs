@@ -2,7 +2,7 @@
 
 use super::sink::{HOURS_FILE, Sink, YearFile, files};
 use super::year::Year;
-use crate::arguments::AnnualArguments;
+use crate::arguments::YearArguments;
 use crate::commands::count;
 use crate::exit::CliError;
 use crate::project::{self, Project};
@@ -34,7 +34,7 @@ pub struct FinishedYear {
 #[expect(clippy::disallowed_methods, reason = "the command line reports how long a year took")]
 pub(crate) fn year_in_memory(
     project: &Project,
-    arguments: &AnnualArguments,
+    arguments: &YearArguments,
     listener: Option<YearListener<'_>>,
 ) -> Result<FinishedYear, CliError> {
     let settings = project::annual_settings(project, arguments)?;

@@ -29,9 +29,9 @@ pub(crate) fn annual(arguments: &AnnualArguments) -> Result<Exit, CliError> {
     interrupt::listen()?;
     let file = &arguments.project;
     let project = open(arguments)?;
-    let settings = project::annual_settings(&project, arguments)?;
-    let threads = count(arguments.threads);
-    let year = Year::new(&project, settings, arguments.occupied.as_ref(), threads)?;
+    let settings = project::annual_settings(&project, &arguments.year)?;
+    let threads = count(arguments.year.threads);
+    let year = Year::new(&project, settings, arguments.year.occupied.as_ref(), threads)?;
     let points = points(arguments, year.points())?;
     let folder = arguments.output.out.clone().unwrap_or_else(|| Folder::by_name(file));
     let Some(path) = &arguments.checkpoint else {
@@ -42,7 +42,7 @@ pub(crate) fn annual(arguments: &AnnualArguments) -> Result<Exit, CliError> {
     kept::expect_nothing_to_lose(path, file)?;
     let heading = YearHeading {
         run: Heading::new(&project, RunPaths { file, out: &folder, settings: &year.settings }),
-        occupied_h: arguments.occupied.clone(),
+        occupied_h: arguments.year.occupied.clone(),
         points: points.clone(),
         of: year.points(),
     };
