@@ -37,7 +37,7 @@ fn unreadable(error: &Error) -> String {
     refused(&name, &value, &why)
 }
 
-/// What is wrong with the value of an option, and what was expected.
+/// Message about the value of an option, with what was expected.
 pub(crate) fn refused(name: &str, value: &str, why: &str) -> String {
     match why.starts_with("expected ") {
         true => format!("{name} is \"{value}\"; {why}"),

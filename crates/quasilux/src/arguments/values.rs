@@ -28,7 +28,7 @@ pub(crate) fn name_of<T: Copy>(
     Err(none_of(&known.join(", "), nearest(text, known.iter().copied())))
 }
 
-/// What to expect where a value is none of a few, and the one that is nearest to it.
+/// Names to choose from where a value is none of them, and the one that is nearest to it.
 pub(super) fn none_of(known: &str, nearest: Option<&str>) -> String {
     let nearest = nearest.map_or_else(String::new, |name| format!("; did you mean \"{name}\"?"));
     format!("expected one of {known}{nearest}")

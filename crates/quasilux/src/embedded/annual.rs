@@ -7,7 +7,7 @@ use crate::exit::CliError;
 use crate::kernel;
 use crate::project::Project;
 
-/// What is asked of a year.
+/// Checked options of a year.
 #[derive(Debug)]
 pub struct YearOrder(YearArguments);
 

@@ -38,9 +38,9 @@ pub struct RunOptions {
     pub abs_tol_lx: Option<f64>,
     /// Wanted bound on light that no sample met over the value; "off" does not wait for it.
     pub unseen_tol: Option<Share>,
-    /// What has to reach the tolerance.
+    /// Name of what has to reach the tolerance: points, or summary.
     pub tolerance_on: Option<String>,
-    /// Which intervals are reported.
+    /// Name of the intervals that are reported.
     pub interval: Option<String>,
     /// Confidence level of the intervals.
     pub confidence: Option<Share>,
@@ -50,7 +50,7 @@ pub struct RunOptions {
     pub rays: Option<i128>,
     /// Stop after this time in s.
     pub time_s: Option<f64>,
-    /// How light is followed.
+    /// Name of the way in which light is followed.
     pub estimator: Option<String>,
     /// Points that drive the simulation.
     pub sequence: Option<String>,
@@ -62,7 +62,7 @@ pub struct RunOptions {
     pub strict: bool,
     /// File in which the run is kept while it goes.
     pub checkpoint: Option<PathBuf>,
-    /// How often it is kept, at most, in s.
+    /// Shortest time in s between two times that it is kept.
     pub checkpoint_every_s: Option<f64>,
 }
 
@@ -73,7 +73,7 @@ pub struct ResumeOptions {
     pub time_s: Option<f64>,
     /// Number of threads.
     pub threads: Option<i128>,
-    /// How often the run is kept, at most, in s.
+    /// Shortest time in s between two times that the run is kept.
     pub checkpoint_every_s: Option<f64>,
 }
 
@@ -97,7 +97,7 @@ pub struct YearOptions {
 }
 
 impl RunOptions {
-    /// What is asked of the simulation.
+    /// Arguments of the simulation.
     pub(super) fn simulation(&self) -> Result<SimulationArguments, CliError> {
         let unseen = |it: &Share| it.read(unseen_tolerance, unseen_tolerance_of);
         let (interval, sequence) = (&self.interval, &self.sequence);
@@ -126,7 +126,7 @@ impl RunOptions {
         })
     }
 
-    /// Where and how often the run is kept.
+    /// Arguments of what keeps the run.
     pub(super) fn keeping(&self) -> Result<CheckpointArguments, CliError> {
         let checkpoint_every = checkpoint_every(self.checkpoint_every_s)?;
         Ok(CheckpointArguments { checkpoint: self.checkpoint.clone(), checkpoint_every })
@@ -134,7 +134,7 @@ impl RunOptions {
 }
 
 impl ResumeOptions {
-    /// What is asked of a run that goes on.
+    /// Arguments of a run that goes on.
     pub(super) fn arguments(&self, checkpoint: &Path) -> Result<ResumeArguments, CliError> {
         Ok(ResumeArguments {
             checkpoint: checkpoint.to_owned(),
@@ -148,7 +148,7 @@ impl ResumeOptions {
 }
 
 impl YearOptions {
-    /// What is asked of the year.
+    /// Arguments of the year.
     pub(super) fn arguments(&self) -> Result<YearArguments, CliError> {
         let rel_tol = taken("rel_tol", &self.rel_tol, |it| it.read(share, share_of))?;
         let abs_tol = taken("abs_tol_lx", &self.abs_tol_lx, |lx| illuminance_of(*lx))?;

@@ -16,7 +16,7 @@ use quasilux_report::PictureOf;
 use quasilux_transport::{PreparedScene, Settings};
 use std::path::{Path, PathBuf};
 
-/// What is asked of a run.
+/// Checked options of a run.
 #[derive(Debug)]
 pub struct Order {
     pub(super) simulation: SimulationArguments,

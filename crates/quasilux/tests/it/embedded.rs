@@ -17,7 +17,7 @@ fn room(name: &str) -> Folder {
     folder
 }
 
-/// Those of [`OPTIONS`].
+/// Values of the words in [`OPTIONS`].
 fn options() -> RunOptions {
     let rel_tol = Some(Share::Number(1e-9));
     RunOptions { rel_tol, samples: Some(64), ..RunOptions::default() }
