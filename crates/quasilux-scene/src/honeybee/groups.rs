@@ -29,12 +29,20 @@ struct Member {
 #[derive(Clone, Debug)]
 pub(crate) struct StateShade<'m> {
     pub(crate) state: usize,
+    /// Whether its thing has no later state: it is there in those of the others, too.
+    pub(crate) is_last: bool,
     pub(crate) name: &'m str,
     pub(crate) geometry: &'m Face3D,
     pub(crate) material: String,
     pub(crate) look: Look,
     /// The path of its key.
     pub(crate) place: String,
+}
+
+impl StateShade<'_> {
+    fn is_there(&self, state: usize) -> bool {
+        self.state == state || (self.is_last && self.state < state)
+    }
 }
 
 /// A state behind the first.
@@ -69,7 +77,7 @@ impl<'m> Group<'m> {
             let look = |member: &'_ Member| member.looks.len().min(number + 1) - 1;
             let looks = self.members.iter();
             let looks = looks.map(|it| (it.material.as_str(), &it.looks[look(it)])).collect();
-            let shades = self.shades.iter().filter(|shade| shade.state == number).collect();
+            let shades = self.shades.iter().filter(|shade| shade.is_there(number)).collect();
             GroupState { number, looks, shades }
         })
     }

@@ -1,12 +1,14 @@
 //! Which surfaces a model has, and what they are made of.
 
+mod states;
+
 use super::findings::Findings;
-use super::groups::{Group, StateShade, in_place};
+use super::groups::Group;
 use super::look::{Look, look};
 use super::model::{Aperture, Boundary, Door, Face, FaceType, Model, Room, Shade};
 use super::modifiers::Modifiers;
-use super::names::{Names, plain};
-use super::radiance::{Modifier, ModifierSet, State, SubFaceRadiance};
+use super::names::Names;
+use super::radiance::{Modifier, ModifierSet, SubFaceRadiance};
 use super::shapes::{Face3D, Mesh3D};
 use super::slots::Slot;
 use crate::LoadError;
@@ -64,8 +66,6 @@ pub(crate) fn surfaces<'m>(
     Ok(collector.found)
 }
 
-/// Most states of a thing: those that a group of blinds has, and the first one.
-const MAX_STATES: usize = 17;
 /// Most modifiers: each takes up to some kB.
 const MAX_MATERIALS: usize = 100_000;
 /// Name of a modifier without identifier.
@@ -289,124 +289,6 @@ impl<'m> Collector<'_, 'm> {
         };
         self.push(thing.name, material, shape, place, false);
         Ok(())
-    }
-
-    /// Adds the states of a thing to its group; the material of the thing, which is that of the
-    /// group.
-    fn states(
-        &mut self,
-        thing: Thing<'m>,
-        radiance: &'m SubFaceRadiance,
-        base: &'m Modifier,
-        place: &str,
-    ) -> Result<usize, LoadError> {
-        let states: &'m [State] = &radiance.states;
-        let mut modifiers: Vec<&'m Modifier> = Vec::new();
-        if states.len() > MAX_STATES {
-            self.findings.note(place, format!("states beyond {MAX_STATES} are left out"));
-        }
-        let states = &states[..states.len().min(MAX_STATES)];
-        for (number, state) in states.iter().enumerate() {
-            let place = format!("{place}.properties.radiance.states[{number}]");
-            let own = state.modifier.as_ref();
-            modifiers.push(own.map_or(Ok(base), |own| self.modifiers.named(own, &place))?);
-        }
-        let group = match &radiance.dynamic_group_identifier {
-            Some(group) if states.len() > 1 => self.group(group),
-            other => {
-                if other.is_none() {
-                    let note = "states without dynamic_group_identifier: the first one counts";
-                    self.findings.note(place, note);
-                }
-                self.shades_of_state(None, &states[0], 0, place)?;
-                return self.material(modifiers[0]);
-            }
-        };
-        for (number, state) in states.iter().enumerate() {
-            self.shades_of_state(Some(group), state, number, place)?;
-        }
-        self.member(group, &modifiers, thing.name)
-    }
-
-    /// The material of what changes alike, in a group.
-    fn member(
-        &mut self,
-        group: usize,
-        modifiers: &[&Modifier],
-        name: &str,
-    ) -> Result<usize, LoadError> {
-        let identifiers = modifiers.iter().map(|it| it.identifier.clone().unwrap_or_default());
-        let key = (group, identifiers.collect());
-        if let Some(&known) = self.member_of.get(&key) {
-            return Ok(known);
-        }
-        let mut looks = Vec::new();
-        for modifier in modifiers {
-            looks.push(self.look_in_place(modifier, name)?);
-        }
-        let group_name = self.found.groups[group].name.clone();
-        let number = self.new_material(&format!("group {group_name}"), looks[0].clone())?;
-        self.found.groups[group].add(self.found.materials[number].0.clone(), looks);
-        self.member_of.insert(key, number);
-        Ok(number)
-    }
-
-    /// Adds the shades of one state: those of the first one are there until another comes.
-    fn shades_of_state(
-        &mut self,
-        group: Option<usize>,
-        state: &'m State,
-        number: usize,
-        place: &str,
-    ) -> Result<(), LoadError> {
-        for (which, shade) in state.shades.iter().enumerate() {
-            let place = format!("{place}.properties.radiance.states[{number}].shades[{which}]");
-            let slot = Slot::Shade { is_inside: false };
-            let modifier = self.modifiers.choose(shade.modifier.as_ref(), None, slot, &place)?;
-            let shape = Shape::Polygon { outline: &shade.geometry, cut_out: Vec::new() };
-            let Some(group) = group else {
-                let material = self.material(modifier)?;
-                self.push(&shade.identifier, material, shape, &place, false);
-                continue;
-            };
-            let look = self.look_in_place(modifier, &shade.identifier)?;
-            let name = format!("group {} state {number}", self.found.groups[group].name);
-            if number == 0 {
-                let material = self.new_material(&name, look.clone())?;
-                let looks = vec![look, in_place(Look::Open)];
-                self.found.groups[group].add(self.found.materials[material].0.clone(), looks);
-                self.push(&shade.identifier, material, shape, &place, false);
-            } else {
-                let (state, name_of_shade) = (number, shade.identifier.as_str());
-                let (geometry, material) = (&shade.geometry, self.names.new_name(&plain(&name)));
-                let shade =
-                    StateShade { state, name: name_of_shade, geometry, material, look, place };
-                self.found.groups[group].add_shade(shade);
-            }
-        }
-        Ok(())
-    }
-
-    /// The look of a modifier for something that stays in place.
-    fn look_in_place(&mut self, modifier: &Modifier, name: &str) -> Result<Look, LoadError> {
-        let look = self.look(modifier)?;
-        match look {
-            Look::Unknown(message) => Err(LoadError::new(self.file, None, message)),
-            Look::Light(_) => {
-                self.findings.note(name, "light of a state of a group is left out");
-                Ok(in_place(look))
-            }
-            other => Ok(in_place(other)),
-        }
-    }
-
-    /// The number of the group of this name.
-    fn group(&mut self, name: &'m str) -> usize {
-        let groups = &mut self.found.groups;
-        *self.groups.entry(name).or_insert_with(|| {
-            groups.push(Group::new(name));
-            groups.len() - 1
-        })
     }
 
     /// Look of a modifier.

@@ -360,6 +360,32 @@ fn groups_become_blinds_state_by_state() {
     assert_eq!(bsdf(second, "ground").reflectance().unwrap().luminance(), 0.25);
 }
 
+/// Something with fewer states than its group keeps the last one, with its shades.
+#[test]
+fn members_of_fewer_states_keep_their_last_one() {
+    let mut model = changing();
+    let pane = |name: &str, x: f64, states: Value| {
+        let mut pane = window(name, upright(0.0, [x, 1.0], [x + 0.5, 2.0]));
+        pane["properties"] =
+            json!({"radiance": {"dynamic_group_identifier": "g", "states": states}});
+        pane
+    };
+    let awning =
+        json!([{"identifier": "awning", "geometry": upright(-0.3, [1.0, 1.0], [2.0, 2.0])}]);
+    model["rooms"][0]["faces"][2]["apertures"] = json!([
+        pane("a", 1.0, json!([{"modifier": "bright"}, {"modifier": "dark", "shades": awning}])),
+        pane("b", 2.0, json!([{"modifier": "bright"}, {"modifier": "dark"}, {}])),
+    ]);
+    let found = loaded(&model, Some("a.wea"));
+    let positions = &found.blinds.expect("groups").groups[0].positions;
+    let has_awning = |scene: &quasilux_scene::Scene| {
+        scene.mesh.objects.iter().any(|object| &**object == "awning")
+    };
+    let there: Vec<bool> = positions.iter().map(|it| has_awning(&it.room)).collect();
+    assert_eq!(there, [true, true]);
+    assert!(!has_awning(&found.scene));
+}
+
 #[test]
 fn groups_stay_in_their_first_state_without_a_year() {
     let found = loaded(&changing(), None);
