@@ -26,7 +26,7 @@ impl Facet {
 }
 
 /// A list; none where the key is missing or `null`.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct List<T>(pub(crate) Vec<T>);
 
 impl<T> Default for List<T> {

@@ -158,6 +158,8 @@ pub(crate) struct Shade {
 pub(crate) struct ShadeMesh {
     pub(crate) identifier: String,
     pub(crate) geometry: Mesh3D,
+    /// Whether it belongs to no building, as it does where nothing is said.
+    pub(crate) is_detached: Option<bool>,
     #[serde(default)]
     pub(crate) properties: Properties<ShadeRadiance>,
 }

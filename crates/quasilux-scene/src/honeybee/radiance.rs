@@ -24,7 +24,7 @@ pub(crate) struct ModelRadiance {
 }
 
 /// A thing, or the identifier of one.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Named<T> {
     Name(String),
     Whole(Box<T>),
@@ -55,7 +55,7 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for Named<T> {
 }
 
 /// Material of Radiance, which surfaces are made of.
-#[derive(Clone, Debug, Default, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(default)]
 pub(crate) struct Modifier {
     #[serde(rename = "type")]
@@ -84,7 +84,7 @@ pub(crate) struct Modifier {
 }
 
 /// The type of a thing of which no more is asked.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 pub(crate) struct Kind {
     #[serde(rename = "type")]
     pub(super) kind: Option<String>,
@@ -148,7 +148,7 @@ pub(crate) struct FaceRadiance {
 }
 
 /// Of an aperture or a door.
-#[derive(Debug, Default, Deserialize)]
+#[derive(Debug, Default, PartialEq, Deserialize)]
 #[serde(default)]
 pub(crate) struct SubFaceRadiance {
     pub(super) modifier: Option<Named<Modifier>>,
@@ -160,7 +160,7 @@ pub(crate) struct SubFaceRadiance {
 pub(crate) type ShadeRadiance = SubFaceRadiance;
 
 /// How a thing is in a state of its group.
-#[derive(Debug, Default, Deserialize)]
+#[derive(Debug, Default, PartialEq, Deserialize)]
 #[serde(default)]
 pub(crate) struct State {
     pub(super) modifier: Option<Named<Modifier>>,
@@ -168,7 +168,7 @@ pub(crate) struct State {
 }
 
 /// A shade that is there in one state.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, PartialEq, Deserialize)]
 pub(crate) struct StateGeometry {
     pub(super) identifier: String,
     pub(super) geometry: Face3D,

@@ -12,6 +12,7 @@ use super::radiance::{Modifier, ModifierSet, SubFaceRadiance};
 use super::shapes::{Face3D, Mesh3D};
 use super::slots::Slot;
 use crate::LoadError;
+use states::StateMaterial;
 use std::collections::HashMap;
 
 /// All surfaces, with materials and groups.
@@ -58,7 +59,11 @@ pub(crate) fn surfaces<'m>(
         member_of: HashMap::new(),
         groups: HashMap::new(),
         looks: HashMap::new(),
+        firsts: HashMap::new(),
+        state_materials: HashMap::new(),
+        state_shades: 0,
         names: Names::default(),
+        sheet_names: Names::default(),
         written: HashMap::new(),
         found: Surfaces { surfaces: Vec::new(), materials: Vec::new(), groups: Vec::new() },
     };
@@ -72,27 +77,33 @@ const MAX_MATERIALS: usize = 100_000;
 const UNNAMED: &str = "unnamed modifier";
 
 /// The side of a pair that was met first.
-struct FirstSide {
-    identifier: String,
-    modifier: Option<String>,
+struct FirstSide<'m> {
+    identifier: &'m str,
+    modifier: &'m Modifier,
+    radiance: Option<&'m SubFaceRadiance>,
 }
 
 struct Collector<'a, 'm> {
     file: &'m str,
     modifiers: Modifiers<'m>,
     findings: &'a mut Findings,
-    /// Materials by the identifier of their modifier.
-    number_of: HashMap<String, usize>,
+    /// Materials by their modifier.
+    number_of: HashMap<*const Modifier, usize>,
     /// Materials by what changes alike: the group, and the modifiers of all states.
-    member_of: HashMap<(usize, Vec<String>), usize>,
+    member_of: HashMap<(usize, Vec<*const Modifier>), usize>,
+    /// By group, state and modifier.
+    state_materials: HashMap<(usize, usize, *const Modifier), StateMaterial>,
+    state_shades: usize,
     /// Groups by name.
     groups: HashMap<&'m str, usize>,
-    /// Looks of modifiers, by identifier.
-    looks: HashMap<String, Look>,
+    looks: HashMap<*const Modifier, Look>,
+    /// The first modifier in use of each name.
+    firsts: HashMap<&'m str, &'m Modifier>,
     /// Of all materials.
     names: Names,
+    sheet_names: Names,
     /// By the identifier of the other side.
-    written: HashMap<String, FirstSide>,
+    written: HashMap<&'m str, FirstSide<'m>>,
     found: Surfaces<'m>,
 }
 
@@ -160,7 +171,9 @@ impl<'m> Collector<'_, 'm> {
         self.shades(&model.orphaned_shades, None, Slot::Context, "orphaned_shades")?;
         for (number, mesh) in model.shade_meshes.iter().enumerate() {
             let place = format!("shade_meshes[{number}]");
-            let (radiance, slot) = (mesh.properties.get(), Slot::Context);
+            let is_attached = mesh.is_detached == Some(false);
+            let slot = if is_attached { Slot::Shade { is_inside: false } } else { Slot::Context };
+            let radiance = mesh.properties.get();
             let thing = Thing { name: &mesh.identifier, radiance, set: None, slot };
             self.add(thing, Shape::Mesh(&mesh.geometry), &place)?;
         }
@@ -195,7 +208,8 @@ impl<'m> Collector<'_, 'm> {
         let apertures = apertures.map(|it| SubFace::of_aperture(it, set, face.face_type));
         let doors = face.doors.iter().map(|it| SubFace::of_door(it, set, face.face_type));
         let (apertures, doors): (Vec<_>, Vec<_>) = (apertures.collect(), doors.collect());
-        if self.is_first_side(&face.identifier, &face.boundary_condition, modifier, place) {
+        let side = FirstSide { identifier: &face.identifier, modifier, radiance: None };
+        if self.is_first_side(side, &face.boundary_condition, place) {
             let material = self.material(modifier)?;
             let sub_faces = apertures.iter().chain(&doors);
             let cut_out = sub_faces.map(|sub_face| sub_face.geometry).collect();
@@ -214,7 +228,8 @@ impl<'m> Collector<'_, 'm> {
         let SubFace { thing, geometry, boundary, indoor_shades, outdoor_shades } = *sub_face;
         let own = thing.radiance.and_then(|radiance| radiance.modifier.as_ref());
         let modifier = self.modifiers.choose(own, thing.set, thing.slot, place)?;
-        if self.is_first_side(thing.name, boundary, modifier, place) {
+        let side = FirstSide { identifier: thing.name, modifier, radiance: thing.radiance };
+        if self.is_first_side(side, boundary, place) {
             let shape = Shape::Polygon { outline: geometry, cut_out: Vec::new() };
             self.add(thing, shape, place)?;
         }
@@ -222,29 +237,25 @@ impl<'m> Collector<'_, 'm> {
     }
 
     /// Whether the other side of this thing was not met before; the first side stands for both.
-    fn is_first_side(
-        &mut self,
-        identifier: &str,
-        boundary: &Boundary,
-        modifier: &Modifier,
-        place: &str,
-    ) -> bool {
+    fn is_first_side(&mut self, side: FirstSide<'m>, boundary: &'m Boundary, place: &str) -> bool {
         let Some(other) = boundary.neighbour() else { return true };
-        match self.written.remove(identifier) {
+        match self.written.remove(side.identifier) {
             Some(first) if first.identifier == other => {
-                if first.modifier != modifier.identifier {
+                if first.modifier != side.modifier {
                     let note = "the two rooms that it is between have other modifiers for it: \
                                 that of the first one counts on both sides";
+                    self.findings.note(place, note);
+                }
+                let has_states = side.radiance.is_some_and(|it| !it.states.is_empty());
+                if has_states && first.radiance != side.radiance {
+                    let note = "its states are left out: those of its other side, which comes \
+                                first, count on both sides";
                     self.findings.note(place, note);
                 }
                 false
             }
             _ => {
-                let first = FirstSide {
-                    identifier: identifier.to_owned(),
-                    modifier: modifier.identifier.clone(),
-                };
-                self.written.insert(other.to_owned(), first);
+                self.written.insert(other, side);
                 true
             }
         }
@@ -291,26 +302,38 @@ impl<'m> Collector<'_, 'm> {
         Ok(())
     }
 
-    /// Look of a modifier.
-    fn look(&mut self, modifier: &Modifier) -> Result<Look, LoadError> {
+    /// The first modifier in use that says the same by the same name, if it is this one's.
+    fn first_like(&mut self, modifier: &'m Modifier) -> &'m Modifier {
         let name = modifier.identifier.as_deref().unwrap_or(UNNAMED);
-        if let Some(known) = self.looks.get(name) {
+        let first = *self.firsts.entry(name).or_insert(modifier);
+        if std::ptr::eq(first, modifier) || first == modifier { first } else { modifier }
+    }
+
+    /// Look of a modifier.
+    fn look(&mut self, modifier: &'m Modifier) -> Result<Look, LoadError> {
+        let key = std::ptr::from_ref(modifier);
+        if let Some(known) = self.looks.get(&key) {
             return Ok(known.clone());
         }
-        let look = look(self.file, modifier, self.findings)?;
-        self.looks.insert(name.to_owned(), look.clone());
+        let mut look = look(self.file, modifier, self.findings)?;
+        if let Look::Sheet { name, .. } = &mut look {
+            *name = self.sheet_names.new_name(name).into();
+        }
+        self.looks.insert(key, look.clone());
         Ok(look)
     }
 
     /// The material of a modifier.
-    fn material(&mut self, modifier: &Modifier) -> Result<usize, LoadError> {
-        let name = modifier.identifier.as_deref().unwrap_or(UNNAMED);
-        if let Some(&known) = self.number_of.get(name) {
+    fn material(&mut self, modifier: &'m Modifier) -> Result<usize, LoadError> {
+        let modifier = self.first_like(modifier);
+        let key = std::ptr::from_ref(modifier);
+        if let Some(&known) = self.number_of.get(&key) {
             return Ok(known);
         }
         let look = self.look(modifier)?;
+        let name = modifier.identifier.as_deref().unwrap_or(UNNAMED);
         let number = self.new_material(name, look)?;
-        self.number_of.insert(name.to_owned(), number);
+        self.number_of.insert(key, number);
         Ok(number)
     }
 

@@ -3,6 +3,7 @@
 use super::Writer;
 use super::text::quoted;
 use crate::honeybee::{Face3D, Group, GroupState, StateShade, Surfaces};
+use std::collections::HashSet;
 use std::fmt::Write;
 
 /// Most groups and states that a project has.
@@ -48,17 +49,30 @@ impl Writer<'_> {
         let number = state.number;
         self.text.section("[[blinds.states]]");
         self.text.key("name", &quoted(&format!("state {number}")));
-        if !state.shades.is_empty() {
-            let obj = self.obj(&state.shades);
+        let mut there = state.shades.clone();
+        there.retain(|shade| self.has_area(shade));
+        if !there.is_empty() {
+            let obj = self.obj(&there);
             let name = format!("{}-{number}", group.name);
             let file = self.file(&name, ".obj", obj.into_bytes());
             self.text.key("geometry", &format!("[{}]", quoted(&file)));
         }
-        let shades = state.shades.iter().map(|shade| (shade.material.as_str(), &shade.look));
-        for (name, look) in state.looks.iter().copied().chain(shades) {
+        let shades = there.iter().map(|shade| (shade.material.as_str(), &shade.look));
+        let mut written = HashSet::new();
+        let all = state.looks.iter().copied().chain(shades);
+        for (name, look) in all.filter(|(name, _)| written.insert(*name)) {
             self.text.section(&format!("[blinds.states.materials.{}]", quoted(name)));
             self.material(look);
         }
+    }
+
+    /// Whether a shade is something that geometry has.
+    fn has_area(&mut self, shade: &StateShade<'_>) -> bool {
+        let has_area = shade.geometry.area() > 0.0;
+        if !has_area {
+            self.findings.note(&shade.place, "a polygon without area is left out");
+        }
+        has_area
     }
 
     /// Shades as an OBJ file, in the unit of the model.

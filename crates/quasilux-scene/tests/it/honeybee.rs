@@ -130,6 +130,10 @@ fn honeybees_own_modifiers_stand_behind_all_others() {
         "vertices": [[9, 9, 0], [10, 9, 0], [10, 10, 0], [9, 10, 0]],
         "faces": [[0, 1, 2, 3], [0, 1, 2]],
     }}]);
+    let mut attached = model["shade_meshes"][0].clone();
+    attached["identifier"] = json!("attached");
+    attached["is_detached"] = json!(false);
+    model["shade_meshes"].as_array_mut().unwrap().push(attached);
     let loaded = loaded(&model);
     for (object, reflectance) in [
         ("a_floor", 0.2),
@@ -140,6 +144,7 @@ fn honeybees_own_modifiers_stand_behind_all_others() {
         ("outside", 0.35),
         ("tree", 0.2),
         ("mesh", 0.2),
+        ("attached", 0.35),
     ] {
         let found = material_of(&loaded, object).bsdf.reflectance().map(|it| it.luminance());
         assert_eq!(found, Some(reflectance), "{object}");
@@ -253,6 +258,51 @@ fn faces_between_rooms_come_once_and_air_boundaries_not_at_all() {
     close(area(&loaded(&model(&rooms[..1])).scene, |_| true), 49.0);
     rooms[0]["faces"][3]["face_type"] = json!("Wall");
     close(area(&loaded(&model(&rooms[..1])).scene, |_| true), 59.0);
+}
+
+/// What is said of the side that comes second, and is not that of the first one, is told.
+#[test]
+fn states_of_the_second_side_are_told() {
+    let mut rooms =
+        [room("a", [0.0; 3], [4.0, 3.0, 2.5]), room("b", [0.0, 3.0, 0.0], [4.0, 6.0, 2.5])];
+    let pane = |own: &str, other: &str| {
+        let mut pane = window(own, upright(3.0, [1.0, 1.0], [2.0, 2.0]));
+        pane["boundary_condition"] =
+            json!({"type": "Surface", "boundary_condition_objects": [other]});
+        json!([pane])
+    };
+    rooms[0]["faces"][3]["apertures"] = pane("a", "b");
+    rooms[1]["faces"][2]["apertures"] = pane("b", "a");
+    let states = json!({"radiance": {"dynamic_group_identifier": "g", "states": [{}, {}]}});
+    rooms[1]["faces"][2]["apertures"][0]["properties"] = states.clone();
+    let told = |rooms: &[Value]| {
+        let told = warnings_of(&loaded(&model(rooms)));
+        told.into_iter().filter(|it| it.contains("its states are left out")).count()
+    };
+    assert_eq!(told(&rooms), 1);
+    rooms[0]["faces"][3]["apertures"][0]["properties"] = states;
+    assert_eq!(told(&rooms), 0);
+}
+
+/// Two of one name that say different things are two materials; that say the same, one.
+#[test]
+fn modifiers_in_place_are_told_apart() {
+    let grey = |share: f64| {
+        json!({"type": "Plastic", "identifier": "m", "r_reflectance": share,
+               "g_reflectance": share, "b_reflectance": share})
+    };
+    let mut room = room("a", [0.0; 3], [4.0, 3.0, 2.5]);
+    for (face, share) in [(2, 0.3), (3, 0.6), (4, 0.3)] {
+        room["faces"][face]["properties"]["radiance"]["modifier"] = grey(share);
+    }
+    let loaded = loaded(&model(&[room]));
+    for (object, name, reflectance) in
+        [("a_south", "m", 0.3), ("a_north", "m 2", 0.6), ("a_west", "m", 0.3)]
+    {
+        let material = material_of(&loaded, object);
+        let found = material.bsdf.reflectance().map(|it| it.luminance());
+        assert_eq!((material.name.as_str(), found), (name, Some(reflectance)), "{object}");
+    }
 }
 
 /// Rooms and windows at random, some at edges and corners: nothing is lost, nothing is twice.

@@ -386,6 +386,30 @@ fn members_of_fewer_states_keep_their_last_one() {
     assert!(!has_awning(&found.scene));
 }
 
+/// Shades of one modifier share a material in each state; those without area are left out.
+#[test]
+fn shades_of_states_share_materials() {
+    let mut model = changing();
+    let states = "/rooms/0/faces/2/apertures/0/properties/radiance/states";
+    let shades: Vec<Value> = (0..50_i32)
+        .map(|i| json!({"identifier": "slat", "geometry": upright(f64::from(-i), [1.0, 1.0], [2.0, 2.0])}))
+        .collect();
+    *model.pointer_mut(&format!("{states}/2/shades")).unwrap() = json!(shades);
+    let imported = import(&model, Some("a.wea")).unwrap();
+    assert_eq!(imported.text.matches("group_south__1__state_2").count(), 1, "{}", imported.text);
+    for flat in [json!([[0, 0, 0], [1, 1, 1]]), json!([[0, 0, 0], [1, 1, 1], [2, 2, 2]])] {
+        let shades = json!([{"identifier": "flat", "geometry": {"boundary": flat}}]);
+        *model.pointer_mut(&format!("{states}/2/shades")).unwrap() = shades;
+        assert_eq!(loaded(&model, Some("a.wea")).blinds.unwrap().groups.len(), 2);
+        let told = findings(&model, Some("a.wea"));
+        assert!(told[0].contains("states[2].shades[0]: a polygon without area"), "{told:?}");
+    }
+    *model.pointer_mut(&format!("{states}/2/shades")).unwrap() =
+        json!(vec![json!({"identifier": "s", "geometry": {"boundary": []}}); 100_001]);
+    let error = import(&model, Some("a.wea")).unwrap_err();
+    assert!(error.contains("more than 100000 shades of states"), "{error}");
+}
+
 #[test]
 fn groups_stay_in_their_first_state_without_a_year() {
     let found = loaded(&changing(), None);

@@ -10,6 +10,10 @@ use crate::LoadError;
 
 /// Most states of a thing: those that a group of blinds has, and the first one.
 const MAX_STATES: usize = 17;
+/// Most shades of states: each comes once for each state that it is in.
+const MAX_STATE_SHADES: usize = 100_000;
+/// Most characters of a group's name in those of its materials.
+const MAX_NAME: usize = 100;
 
 impl<'m> Collector<'_, 'm> {
     /// Adds the states of a thing to its group; the material of the thing, which is that of the
@@ -55,11 +59,11 @@ impl<'m> Collector<'_, 'm> {
     fn member(
         &mut self,
         group: usize,
-        modifiers: &[&Modifier],
+        modifiers: &[&'m Modifier],
         name: &str,
     ) -> Result<usize, LoadError> {
-        let identifiers = modifiers.iter().map(|it| it.identifier.clone().unwrap_or_default());
-        let key = (group, identifiers.collect());
+        let modifiers: Vec<&Modifier> = modifiers.iter().map(|it| self.first_like(it)).collect();
+        let key = (group, modifiers.iter().map(|&it| std::ptr::from_ref(it)).collect());
         if let Some(&known) = self.member_of.get(&key) {
             return Ok(known);
         }
@@ -67,8 +71,8 @@ impl<'m> Collector<'_, 'm> {
         for modifier in modifiers {
             looks.push(self.look_in_place(modifier, name)?);
         }
-        let group_name = self.found.groups[group].name.clone();
-        let number = self.new_material(&format!("group {group_name}"), looks[0].clone())?;
+        let name = format!("group {}", self.short_name(group));
+        let number = self.new_material(&name, looks[0].clone())?;
         self.found.groups[group].add(self.found.materials[number].0.clone(), looks);
         self.member_of.insert(key, number);
         Ok(number)
@@ -92,26 +96,70 @@ impl<'m> Collector<'_, 'm> {
                 self.push(&shade.identifier, material, shape, &place, false);
                 continue;
             };
-            let look = self.look_in_place(modifier, &shade.identifier)?;
-            let name = format!("group {} state {number}", self.found.groups[group].name);
-            if number == 0 {
-                let material = self.new_material(&name, look.clone())?;
-                let looks = vec![look, in_place(Look::Open)];
-                self.found.groups[group].add(self.found.materials[material].0.clone(), looks);
-                self.push(&shade.identifier, material, shape, &place, false);
-            } else {
-                let (state, name_of_shade) = (number, shade.identifier.as_str());
-                let (geometry, material) = (&shade.geometry, self.names.new_name(&plain(&name)));
-                let name = name_of_shade;
-                let shade = StateShade { state, is_last, name, geometry, material, look, place };
-                self.found.groups[group].add_shade(shade);
+            self.count_state_shade(&place)?;
+            let name = shade.identifier.as_str();
+            let (material, look) = self.state_material(group, number, modifier, name)?;
+            match material {
+                StateMaterial::InScene(material) => {
+                    self.push(name, material, shape, &place, false);
+                }
+                StateMaterial::Added(material) => {
+                    let (state, geometry) = (number, &shade.geometry);
+                    let shade =
+                        StateShade { state, is_last, name, geometry, material, look, place };
+                    self.found.groups[group].add_shade(shade);
+                }
             }
         }
         Ok(())
     }
 
+    fn count_state_shade(&mut self, place: &str) -> Result<(), LoadError> {
+        self.state_shades += 1;
+        if self.state_shades <= MAX_STATE_SHADES {
+            return Ok(());
+        }
+        let message = format!(
+            "{place}: more than {MAX_STATE_SHADES} shades of states in the \
+                               model; expected fewer"
+        );
+        Err(LoadError::new(self.file, None, message))
+    }
+
+    /// The material of the shades that a state of a group has of one modifier, with its look.
+    fn state_material(
+        &mut self,
+        group: usize,
+        number: usize,
+        modifier: &'m Modifier,
+        name: &str,
+    ) -> Result<(StateMaterial, Look), LoadError> {
+        let modifier = self.first_like(modifier);
+        let look = self.look_in_place(modifier, name)?;
+        let key = (group, number, std::ptr::from_ref(modifier));
+        if let Some(known) = self.state_materials.get(&key) {
+            return Ok((known.clone(), look));
+        }
+        let material_name = format!("group {} state {number}", self.short_name(group));
+        let material = if number == 0 {
+            let material = self.new_material(&material_name, look.clone())?;
+            let looks = vec![look.clone(), in_place(Look::Open)];
+            self.found.groups[group].add(self.found.materials[material].0.clone(), looks);
+            StateMaterial::InScene(material)
+        } else {
+            StateMaterial::Added(self.names.new_name(&plain(&material_name)))
+        };
+        self.state_materials.insert(key, material.clone());
+        Ok((material, look))
+    }
+
+    /// The beginning of a group's name.
+    fn short_name(&self, group: usize) -> String {
+        self.found.groups[group].name.chars().take(MAX_NAME).collect()
+    }
+
     /// The look of a modifier for something that stays in place.
-    fn look_in_place(&mut self, modifier: &Modifier, name: &str) -> Result<Look, LoadError> {
+    fn look_in_place(&mut self, modifier: &'m Modifier, name: &str) -> Result<Look, LoadError> {
         let look = self.look(modifier)?;
         match look {
             Look::Unknown(message) => Err(LoadError::new(self.file, None, message)),
@@ -131,6 +179,15 @@ impl<'m> Collector<'_, 'm> {
             groups.len() - 1
         })
     }
+}
+
+/// A material of shades of a state.
+#[derive(Clone, Debug)]
+pub(super) enum StateMaterial {
+    /// By its number among those of the scene.
+    InScene(usize),
+    /// By the name that it has in the geometry of the state.
+    Added(String),
 }
 
 /// A state of a thing in a group.
