@@ -28,12 +28,13 @@ pub(super) struct Left {
     /// nothing twice.
     pub(super) area: f64,
     pub(super) expected_area: f64,
+    outline_area: f64,
 }
 
 impl Left {
     /// Whether what was cut out lay inside and apart.
     pub(super) fn is_as_expected(&self) -> bool {
-        (self.area - self.expected_area).abs() <= 1e-6 * self.expected_area.abs().max(self.area)
+        (self.area - self.expected_area).abs() <= 1e-6 * self.outline_area
     }
 }
 
@@ -66,7 +67,8 @@ impl HoleCutter {
         };
         let mut pieces = self.triangles(outline, up)?;
         let tolerance = TOLERANCE * size(outline);
-        let mut expected_area = 0.5 * normal.length();
+        let outline_area = 0.5 * normal.length();
+        let mut expected_area = outline_area;
         for other in others {
             expected_area -= 0.5 * area_vector(other).length();
             for triangle in self.triangles(other, up)? {
@@ -75,7 +77,7 @@ impl HoleCutter {
         }
         let triangles: Vec<[DVec3; 3]> = pieces.iter().flat_map(|piece| fan(piece)).collect();
         let area = triangles.iter().map(|&[a, b, c]| 0.5 * (b - a).cross(c - a).length()).sum();
-        Ok(Left { triangles, area, expected_area })
+        Ok(Left { triangles, area, expected_area, outline_area })
     }
 
     /// The triangles of a polygon, counter-clockwise seen from above.
@@ -231,6 +233,17 @@ mod tests {
         expect_area(&reversed, &[window], 11.0);
         expect_area(&wall, &[rectangle([3.0, 2.0], [5.0, 4.0])], 11.0);
         expect_area(&wall, &[rectangle([5.0, 2.0], [6.0, 4.0])], 12.0);
+    }
+
+    /// What is left is nothing but rounding.
+    #[test]
+    fn glass_that_covers_its_face_is_as_expected() {
+        let wall = rectangle([0.1, 0.0], [4.7, 3.3]);
+        let glass = rectangle([0.1, 0.0], [4.7, 3.3 - 1e-8]);
+        assert!(
+            cut(&wall, &[glass.clone(), rectangle([4.7, 0.0], [4.7 + 1e-8, 3.0])]).is_as_expected()
+        );
+        assert!(!cut(&wall, &[glass, rectangle([4.7, 0.0], [4.8, 3.0])]).is_as_expected());
     }
 
     #[test]

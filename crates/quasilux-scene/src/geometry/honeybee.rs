@@ -23,27 +23,58 @@ pub(super) fn read(
     let file = builder.file().to_owned();
     let model = Model::parse(&file, bytes)?;
     let mut findings = Findings::default();
-    let Surfaces { surfaces, materials, groups } = surfaces(&file, &model, &mut findings)?;
-    builder.measure_file_in(UpAxis::Z, model.unit().metres());
-    let numbers: Vec<u32> = materials.iter().map(|(name, _)| builder.material(name)).collect();
-    for (&number, (_, look)) in numbers.iter().zip(materials) {
-        describe(number, look, builder, warnings);
-    }
-    let mut reader = Reader { builder, cutter: HoleCutter::new(), findings: &mut findings };
-    for surface in &surfaces {
-        reader.surface(surface, numbers[surface.material])?;
-    }
-    tell_unused(&model, groups.len(), project, &mut findings);
+    let groups = read_surfaces(&file, &model, builder, &mut findings, warnings)?;
+    tell_unused(&model, groups, project, &mut findings);
     warnings.extend(findings.into_warnings(&file));
     Ok(())
 }
 
+/// The warnings on the surfaces of a model, for which there is no project to be loaded.
+pub(crate) fn look_over(file: &str, model: &Model) -> Result<Vec<Warning>, LoadError> {
+    let mut builder = MeshBuilder::new(UpAxis::Z, 1.0);
+    let (mut findings, mut warnings) = (Findings::default(), Vec::new());
+    builder.start_file(file);
+    read_surfaces(file, model, &mut builder, &mut findings, &mut warnings)?;
+    builder.finish_file(&mut warnings)?;
+    warnings.extend(findings.into_warnings(file));
+    Ok(warnings)
+}
+
+/// Reads surfaces and materials; the number of groups.
+fn read_surfaces(
+    file: &str,
+    model: &Model,
+    builder: &mut MeshBuilder,
+    findings: &mut Findings,
+    warnings: &mut Vec<Warning>,
+) -> Result<usize, LoadError> {
+    let Surfaces { surfaces, materials, groups } = surfaces(file, model, findings)?;
+    builder.measure_file_in(UpAxis::Z, model.unit().metres());
+    let numbers: Vec<u32> = materials.iter().map(|(name, _)| builder.material(name)).collect();
+    for (&number, (name, look)) in numbers.iter().zip(materials) {
+        describe(number, &name, look, builder, warnings);
+    }
+    let mut reader = Reader { builder, cutter: HoleCutter::new(), findings };
+    for surface in &surfaces {
+        reader.surface(surface, numbers[surface.material])?;
+    }
+    Ok(groups.len())
+}
+
 /// Notes what a material is made of.
-fn describe(number: u32, look: Look, builder: &mut MeshBuilder, warnings: &mut Vec<Warning>) {
+fn describe(
+    number: u32,
+    name: &str,
+    look: Look,
+    builder: &mut MeshBuilder,
+    warnings: &mut Vec<Warning>,
+) {
     let scattering = match look {
         Look::Surface(bsdf) => FileScattering::Described(bsdf),
         Look::Sheet { name, xml, up } => FileScattering::Sheet { name, xml, up },
-        Look::Unknown(refusal) => FileScattering::Unknown(refusal),
+        Look::Unknown(refusal) => FileScattering::Unknown(format!(
+            "{refusal}, or [materials.{name:?}] in the project file"
+        )),
         Look::Light(_) => {
             let look = FileLook { reflectance: Rgb::BLACK, emits: true, is_clear: false };
             return builder.describe(number, look, warnings);
@@ -57,10 +88,13 @@ fn describe(number: u32, look: Look, builder: &mut MeshBuilder, warnings: &mut V
 /// Tells of what a model has beside surfaces, and the project has nothing of.
 fn tell_unused(model: &Model, groups: usize, project: &Project, findings: &mut Findings) {
     let Some(radiance) = model.radiance() else { return };
+    let luminaires = radiance.luminaires.iter().filter(|it| !it.instances().is_empty()).count();
+    let grids = radiance.sensor_grids.iter().filter(|it| !it.sensors.is_empty()).count();
+    let views = radiance.views.iter().filter(|it| it.why_no_camera().is_none()).count();
     let counts = [
-        ("luminaires", radiance.luminaires.len(), project.luminaires.is_empty()),
-        ("sensor grids", radiance.sensor_grids.len(), project.sensors.is_empty()),
-        ("views", radiance.views.len(), project.cameras.is_empty()),
+        ("luminaires", luminaires, project.luminaires.is_empty()),
+        ("sensor grids", grids, project.sensors.is_empty()),
+        ("views", views, project.cameras.is_empty()),
     ];
     for (what, count, is_without) in counts {
         if count > 0 && is_without {
@@ -113,6 +147,9 @@ impl Reader<'_> {
         if outline.boundary.len() < 3 {
             self.findings.note(place, "a polygon of fewer than three corners is left out");
             return Ok(Vec::new());
+        }
+        if cut_out.iter().any(|it| !it.holes.is_empty()) {
+            self.findings.note(place, "holes of its apertures and doors are open");
         }
         let holes = outline.holes.iter().chain(cut_out.iter().map(|it| &it.boundary));
         let holes: Vec<Vec<DVec3>> = holes.map(|points| positions(points)).collect();

@@ -25,6 +25,7 @@ use crate::project::{Project, UpAxis};
 use crate::{Bsdf, FileKind, Files, LoadError, Mesh, Rgb, Spanned, Warning, files as reading};
 use builder::MeshBuilder;
 use glam::DVec3;
+pub(crate) use honeybee::look_over;
 use std::sync::Arc;
 
 /// The name that triangles without a material get.

@@ -25,27 +25,68 @@ impl Facet {
     }
 }
 
-/// A list; none where the key is missing or `null`.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct List<T>(pub(crate) Vec<T>);
+/// Most elements of a list, since small ones in a file are large in memory.
+const MAX_ELEMENTS: usize = 1_000_000;
 
-impl<T> Default for List<T> {
+/// A list of at most so many elements; none where the key is missing or `null`.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct List<T, const MOST: usize = MAX_ELEMENTS>(pub(crate) Vec<T>);
+
+impl<T, const MOST: usize> Default for List<T, MOST> {
     fn default() -> Self {
         Self(Vec::new())
     }
 }
 
-impl<T> std::ops::Deref for List<T> {
+impl<T, const MOST: usize> std::ops::Deref for List<T, MOST> {
     type Target = [T];
     fn deref(&self) -> &[T] {
         &self.0
     }
 }
 
-impl<'de, T: Deserialize<'de>> Deserialize<'de> for List<T> {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        Ok(Self(Option::deserialize(deserializer)?.unwrap_or_default()))
+struct ListVisitor<T, const MOST: usize>(std::marker::PhantomData<T>);
+
+impl<'de, T: Deserialize<'de>, const MOST: usize> Visitor<'de> for ListVisitor<T, MOST> {
+    type Value = List<T, MOST>;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "a list of at most {MOST} elements")
     }
+
+    fn visit_none<E>(self) -> Result<Self::Value, E> {
+        Ok(List::default())
+    }
+
+    fn visit_some<D: Deserializer<'de>>(self, list: D) -> Result<Self::Value, D::Error> {
+        list.deserialize_seq(self)
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Self::Value, A::Error> {
+        let mut elements = Vec::new();
+        while let Some(element) = list.next_element()? {
+            if elements.len() == MOST {
+                return Err(serde::de::Error::invalid_length(MOST + 1, &self));
+            }
+            elements.push(element);
+        }
+        Ok(List(elements))
+    }
+}
+
+impl<'de, T: Deserialize<'de>, const MOST: usize> Deserialize<'de> for List<T, MOST> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_option(ListVisitor(std::marker::PhantomData))
+    }
+}
+
+/// A value that `null` leaves out.
+pub(super) fn or_default<'de, D, T>(deserializer: D) -> Result<T, D::Error>
+where
+    D: Deserializer<'de>,
+    T: Default + Deserialize<'de>,
+{
+    Ok(Option::deserialize(deserializer)?.unwrap_or_default())
 }
 
 struct PointVisitor;
@@ -148,6 +189,14 @@ mod tests {
         assert_eq!(corners("{\"corners\": [[1, 0, -2.5e3]]}"), Ok(vec![point(1.0)]));
         assert_eq!(corners("\u{feff}{\"corners\": null, \"other\": [{}]}"), Ok(vec![]));
         assert_eq!(corners("{}"), Ok(vec![]));
+    }
+
+    #[test]
+    fn lists_are_bounded() {
+        let list = |text: &str| parse::<List<u8, 2>>("a", text.as_bytes());
+        assert_eq!(list("[1, 2]").unwrap().0, [1, 2]);
+        let error = list("[1, 2, 3]").unwrap_err().to_string();
+        assert!(error.ends_with("length 3, expected a list of at most 2 elements"), "{error}");
     }
 
     #[test]

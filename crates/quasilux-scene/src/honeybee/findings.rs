@@ -6,6 +6,8 @@ use crate::Warning;
 #[derive(Debug, Default)]
 pub(crate) struct Findings {
     remarks: Vec<Remark>,
+    /// Places of remarks beyond the most.
+    untold: usize,
 }
 
 #[derive(Debug)]
@@ -26,6 +28,8 @@ impl Findings {
             known.count += 1;
         } else if self.remarks.len() < MAX_REMARKS {
             self.remarks.push(Remark { message, first: place.to_owned(), count: 1 });
+        } else {
+            self.untold += 1;
         }
     }
 
@@ -40,6 +44,25 @@ impl Findings {
                 Warning::new(&file, None, message)
             }
         };
-        self.remarks.into_iter().map(warning(file.to_owned()))
+        let untold = (self.untold > 0).then(|| {
+            let message = format!("other findings at {} more places are not told", self.untold);
+            Warning::new(file, None, message)
+        });
+        self.remarks.into_iter().map(warning(file.to_owned())).chain(untold)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_not_told_is_counted() {
+        let mut findings = Findings::default();
+        (0..MAX_REMARKS + 3).for_each(|number| findings.note("here", format!("odd {number}")));
+        let told: Vec<String> =
+            findings.into_warnings("a.hbjson").map(|it| it.to_string()).collect();
+        assert_eq!(told.len(), MAX_REMARKS + 1);
+        assert!(told[MAX_REMARKS].contains("other findings at 3 more places"), "{told:?}");
     }
 }

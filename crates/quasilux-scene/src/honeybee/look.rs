@@ -17,6 +17,8 @@ const EFFICACY_LM_W: f64 = 179.0;
 const RADIANCE_WEIGHTS: [f64; 3] = [0.265, 0.670, 0.065];
 /// The width that a smooth highlight gets.
 const MIN_ALPHA: f64 = 0.0004;
+/// Largest index of a surface with a highlight.
+const MAX_ETA: f64 = 5.0;
 /// Where tables of Honeybee's sheets point upward if nothing is said.
 const USUAL_UP: DVec3 = DVec3::new(0.01, 0.01, 1.0);
 
@@ -102,8 +104,7 @@ pub(super) fn look(
         Some("Void") => Look::Open,
         other => Look::Unknown(format!(
             "modifier \"{name}\" is of the type {:?}, for which there is nothing here; expected \
-             Plastic, Metal, Trans, Glass, Mirror, BSDF, Light, Glow or Void, or \
-             [materials.\"{name}\"] in the project file",
+             Plastic, Metal, Trans, Glass, Mirror, BSDF, Light, Glow or Void",
             other.unwrap_or("none")
         )),
     })
@@ -125,7 +126,11 @@ fn plastic(
     findings.note(place, note);
     // The index whose reflectance at normal incidence is the specularity.
     let root = specularity.sqrt();
-    let eta = ((1.0 + root) / (1.0 - root)).clamp(1.0 + 1e-9, 5.0);
+    let eta = (1.0 + root) / (1.0 - root);
+    if eta > MAX_ETA {
+        findings.note(place, "its specularity is above 0.44, and taken as 0.44");
+    }
+    let eta = eta.clamp(1.0 + 1e-9, MAX_ETA);
     let alpha = roughness.max(MIN_ALPHA);
     Ok(Look::from(Bsdf::Plastic(Plastic { reflectance, eta, alpha })))
 }
@@ -161,6 +166,10 @@ fn trans(
     let transmitted = read.share("transmitted_diff", modifier.transmitted_diff)?;
     let straight = read.share("transmitted_spec", modifier.transmitted_spec)?;
     let rest = colour * (1.0 - specularity);
+    let is_straight = specularity > 0.0 || transmitted * straight > 0.0;
+    if is_straight && read.share("roughness", modifier.roughness)? > 0.0 {
+        findings.note(place, "its roughness is left out");
+    }
     if transmitted == 1.0 && straight == 1.0 && colour.is_grey() {
         let passed = rest.luminance();
         if passed == 1.0 {
@@ -169,7 +178,7 @@ fn trans(
         let [through, back] = [passed, specularity].map(AngularTable::constant);
         return Ok(Look::from(Bsdf::Pane(Pane::measured(through, back))));
     }
-    if specularity > 0.0 || transmitted * straight > 0.0 {
+    if is_straight {
         let note = "light that Radiance mirrors or lets straight through it is scattered in all \
                     directions here, as much of it";
         findings.note(place, note);
@@ -217,6 +226,18 @@ fn sheet(
     }
     if modifier.transform.is_some() {
         findings.note(place, "its transform is left out");
+    }
+    let diffuse = [
+        &modifier.front_diffuse_reflectance,
+        &modifier.back_diffuse_reflectance,
+        &modifier.diffuse_transmittance,
+    ];
+    if diffuse.into_iter().any(|shares| shares.iter().any(|&share| share != 0.0)) {
+        findings.note(place, "diffuse light beside that of its tables is left out");
+    }
+    let has_function = modifier.function_file.as_deref().is_some_and(|file| file != ".");
+    if has_function || !modifier.dependencies.is_empty() {
+        findings.note(place, "its function_file and dependencies are left out");
     }
     let up = modifier.up_orientation.map_or(USUAL_UP, |up| up.0);
     if up.length() == 0.0 {

@@ -19,6 +19,7 @@ mod radiance;
 mod shapes;
 mod slots;
 mod surfaces;
+mod views;
 
 pub(crate) use document::Point;
 pub(crate) use findings::Findings;

@@ -24,7 +24,7 @@ pub(crate) struct Model {
     pub(crate) orphaned_doors: List<Door>,
     #[serde(default)]
     pub(crate) shade_meshes: List<ShadeMesh>,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "document::or_default")]
     properties: Properties<ModelRadiance>,
 }
 
@@ -62,7 +62,7 @@ pub(crate) struct Room {
     pub(crate) indoor_shades: List<Shade>,
     #[serde(default)]
     pub(crate) outdoor_shades: List<Shade>,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "document::or_default")]
     pub(crate) properties: Properties<RoomRadiance>,
 }
 
@@ -71,7 +71,7 @@ pub(crate) struct Face {
     pub(crate) identifier: String,
     pub(crate) geometry: Face3D,
     pub(crate) face_type: FaceType,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "document::or_default")]
     pub(crate) boundary_condition: Boundary,
     #[serde(default)]
     pub(crate) apertures: List<Aperture>,
@@ -81,7 +81,7 @@ pub(crate) struct Face {
     pub(crate) indoor_shades: List<Shade>,
     #[serde(default)]
     pub(crate) outdoor_shades: List<Shade>,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "document::or_default")]
     pub(crate) properties: Properties<FaceRadiance>,
 }
 
@@ -121,13 +121,13 @@ pub(crate) struct Aperture {
     pub(crate) identifier: String,
     pub(crate) geometry: Face3D,
     pub(crate) is_operable: Option<bool>,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "document::or_default")]
     pub(crate) boundary_condition: Boundary,
     #[serde(default)]
     pub(crate) indoor_shades: List<Shade>,
     #[serde(default)]
     pub(crate) outdoor_shades: List<Shade>,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "document::or_default")]
     pub(crate) properties: Properties<SubFaceRadiance>,
 }
 
@@ -136,13 +136,13 @@ pub(crate) struct Door {
     pub(crate) identifier: String,
     pub(crate) geometry: Face3D,
     pub(crate) is_glass: Option<bool>,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "document::or_default")]
     pub(crate) boundary_condition: Boundary,
     #[serde(default)]
     pub(crate) indoor_shades: List<Shade>,
     #[serde(default)]
     pub(crate) outdoor_shades: List<Shade>,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "document::or_default")]
     pub(crate) properties: Properties<SubFaceRadiance>,
 }
 
@@ -150,7 +150,7 @@ pub(crate) struct Door {
 pub(crate) struct Shade {
     pub(crate) identifier: String,
     pub(crate) geometry: Face3D,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "document::or_default")]
     pub(crate) properties: Properties<ShadeRadiance>,
 }
 
@@ -160,7 +160,7 @@ pub(crate) struct ShadeMesh {
     pub(crate) geometry: Mesh3D,
     /// Whether it belongs to no building, as it does where nothing is said.
     pub(crate) is_detached: Option<bool>,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "document::or_default")]
     pub(crate) properties: Properties<ShadeRadiance>,
 }
 

@@ -2,11 +2,15 @@
 //! Honeybee's own.
 
 use super::defaults;
+use super::findings::Findings;
 use super::model::Model;
 use super::radiance::{ModelRadiance, Modifier, ModifierSet, Named, Sides};
 use super::slots::Slot;
 use crate::LoadError;
 use std::collections::HashMap;
+
+/// What models call Honeybee's own set, which is in no file.
+const HONEYBEES_OWN_SET: &str = "Generic_Interior_Visible_Modifier_Set";
 
 /// All modifiers and sets of a model.
 pub(super) struct Modifiers<'m> {
@@ -18,14 +22,19 @@ pub(super) struct Modifiers<'m> {
 
 impl<'m> Modifiers<'m> {
     /// Collects those of a model, and Honeybee's own.
-    pub(super) fn new(file: &'m str, model: &'m Model) -> Self {
+    pub(super) fn new(
+        file: &'m str,
+        model: &'m Model,
+        findings: &mut Findings,
+    ) -> Result<Self, LoadError> {
         let mut all = Self { file, by_name: HashMap::new(), sets: HashMap::new(), global: None };
         all.add(defaults::modifiers());
         let Some(ModelRadiance { modifiers, modifier_sets, global_modifier_set, .. }) =
             model.radiance()
         else {
-            return all;
+            return Ok(all);
         };
+        tell_twins(modifiers, findings);
         if let Some(Named::Whole(set)) = global_modifier_set {
             all.add(&set.modifiers);
             all.global = Some(set);
@@ -36,10 +45,13 @@ impl<'m> Modifiers<'m> {
             all.sets.extend(set.identifier.as_deref().map(|name| (name, set)));
         }
         if let Some(Named::Name(name)) = global_modifier_set {
-            // Honeybee's own set has none in the file.
-            all.global = all.sets.get(name.as_str()).copied();
+            let known = all.sets.get(name.as_str()).copied();
+            if known.is_none() && name != HONEYBEES_OWN_SET {
+                return Err(all.no_set("properties.radiance.global_modifier_set", name));
+            }
+            all.global = known;
         }
-        all
+        Ok(all)
     }
 
     fn add(&mut self, modifiers: &'m [Modifier]) {
@@ -59,15 +71,19 @@ impl<'m> Modifiers<'m> {
             Some(Named::Name(name)) => match self.sets.get(name.as_str()) {
                 Some(set) => Ok(Some(set)),
                 None => {
-                    let message = format!(
-                        "{place}.properties.radiance.modifier_set: no set is called {name:?}; \
-                         expected one of the model's properties.radiance.modifier_sets"
-                    );
-                    let names = self.sets.keys().copied();
-                    Err(LoadError::new(self.file, None, message).offer(name, names))
+                    let key = format!("{place}.properties.radiance.modifier_set");
+                    Err(self.no_set(&key, name))
                 }
             },
         }
+    }
+
+    fn no_set(&self, key: &str, name: &str) -> LoadError {
+        let message = format!(
+            "{key}: no set is called {name:?}; expected one of the model's \
+             properties.radiance.modifier_sets"
+        );
+        LoadError::new(self.file, None, message).offer(name, self.sets.keys().copied())
     }
 
     /// The modifier that is named or given; `place` is the path of the thing that has it.
@@ -105,6 +121,18 @@ impl<'m> Modifiers<'m> {
         }
         let name = defaults::of_slot(slot);
         Ok(self.by_name.get(name).copied().expect("Honeybee's own modifiers are there"))
+    }
+}
+
+/// Tells of modifiers of one name that say different things.
+fn tell_twins(modifiers: &[Modifier], findings: &mut Findings) {
+    let mut seen: HashMap<&str, &Modifier> = HashMap::new();
+    for modifier in modifiers {
+        let Some(name) = modifier.identifier.as_deref() else { continue };
+        if seen.insert(name, modifier).is_some_and(|before| before != modifier) {
+            let note = "the model has different modifiers of this name: the last one counts";
+            findings.note(&format!("modifier \"{name}\""), note);
+        }
     }
 }
 

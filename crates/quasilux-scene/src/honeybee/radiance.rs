@@ -1,19 +1,22 @@
 //! The document: `properties.radiance`, what is said of light.
 
-use super::document::{List, Point};
+use super::document::{List, Point, or_default};
 use super::shapes::{Face3D, Mesh3D};
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{IgnoredAny, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 use std::fmt;
 
+/// Most modifiers or sets of a list: each takes some hundred bytes at least.
+const MAX_MODIFIERS: usize = 100_000;
+
 /// Of a model.
 #[derive(Debug, Default, Deserialize)]
 pub(crate) struct ModelRadiance {
     #[serde(default)]
-    pub(super) modifiers: List<Modifier>,
+    pub(super) modifiers: List<Modifier, MAX_MODIFIERS>,
     #[serde(default)]
-    pub(super) modifier_sets: List<ModifierSet>,
+    pub(super) modifier_sets: List<ModifierSet, MAX_MODIFIERS>,
     pub(super) global_modifier_set: Option<Named<ModifierSet>>,
     #[serde(default)]
     pub(crate) sensor_grids: List<SensorGrid>,
@@ -80,6 +83,11 @@ pub(crate) struct Modifier {
     pub(super) up_orientation: Option<Point>,
     pub(super) thickness: Option<f64>,
     pub(super) transform: Option<IgnoredAny>,
+    pub(super) function_file: Option<String>,
+    pub(super) front_diffuse_reflectance: List<f64>,
+    pub(super) back_diffuse_reflectance: List<f64>,
+    pub(super) diffuse_transmittance: List<f64>,
+    pub(super) dependencies: List<IgnoredAny>,
     pub(super) modifier: Option<Named<Kind>>,
 }
 
@@ -103,7 +111,7 @@ pub(crate) struct ModifierSet {
     pub(super) door_set: Option<DoorSet>,
     pub(super) air_boundary_modifier: Option<Named<Modifier>>,
     pub(super) context_modifier: Option<Named<Modifier>>,
-    pub(super) modifiers: List<Modifier>,
+    pub(super) modifiers: List<Modifier, MAX_MODIFIERS>,
 }
 
 /// Of things that are inside or outside.
@@ -182,6 +190,8 @@ pub(crate) struct SensorGrid {
     pub(crate) sensors: Vec<SensorPlace>,
     /// With a face or a vertex for each point.
     pub(crate) mesh: Option<Mesh3D>,
+    #[serde(default)]
+    pub(crate) light_path: List<IgnoredAny>,
 }
 
 #[derive(Clone, Copy, Debug, Deserialize)]
@@ -219,6 +229,13 @@ pub(crate) struct Luminaire {
     pub(crate) custom_lamp: Option<CustomLamp>,
 }
 
+impl Luminaire {
+    /// Where those of it hang.
+    pub(crate) fn instances(&self) -> &[LuminaireInstance] {
+        self.luminaire_zone.as_ref().map_or(&[][..], |zone| &zone.instances)
+    }
+}
+
 #[derive(Debug, Deserialize)]
 pub(crate) struct LuminaireZone {
     #[serde(default)]
@@ -229,11 +246,11 @@ pub(crate) struct LuminaireZone {
 #[derive(Clone, Copy, Debug, Deserialize)]
 pub(crate) struct LuminaireInstance {
     pub(crate) point: NamedPoint,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     pub(crate) spin: f64,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     pub(crate) tilt: f64,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     pub(crate) rotation: f64,
 }
 

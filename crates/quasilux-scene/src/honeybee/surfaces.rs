@@ -53,7 +53,7 @@ pub(crate) fn surfaces<'m>(
 ) -> Result<Surfaces<'m>, LoadError> {
     let mut collector = Collector {
         file,
-        modifiers: Modifiers::new(file, model),
+        modifiers: Modifiers::new(file, model, findings)?,
         findings,
         number_of: HashMap::new(),
         member_of: HashMap::new(),

@@ -29,6 +29,9 @@ impl Writer<'_> {
                 format!("{place}.sensors[{number}].dir has no length; expected a direction");
             return Err(LoadError::new(self.terms.model, None, message));
         }
+        if !grid.light_path.is_empty() {
+            self.findings.note(place, "its light_path is left out: light comes by all ways");
+        }
         let name = self.names.new_name(&grid.identifier, &[""]);
         if name != grid.identifier {
             let note = "its name is taken, or none for a file: results have another one";

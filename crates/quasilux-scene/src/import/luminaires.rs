@@ -26,8 +26,7 @@ impl Writer<'_> {
         let mut count = 0;
         for (which, luminaire) in radiance.luminaires.iter().enumerate() {
             let place = format!("properties.radiance.luminaires[{which}]");
-            let zone = luminaire.luminaire_zone.as_ref();
-            let instances = zone.map_or(&[][..], |zone| &zone.instances);
+            let instances = luminaire.instances();
             if instances.is_empty() {
                 self.findings.note(&place, "a luminaire that hangs nowhere is left out");
                 continue;

@@ -13,6 +13,7 @@ mod states;
 mod text;
 mod views;
 
+use crate::geometry::look_over;
 use crate::honeybee::{Findings, Model, Surfaces, surfaces};
 use crate::{LengthUnit, LoadError, Warning};
 use names::Names;
@@ -27,7 +28,7 @@ pub struct Imported {
     /// Files that it names and that were part of the model.
     pub files: Vec<ImportedFile>,
     /// Parts of the model that the project does not have, or has otherwise. Findings on geometry
-    /// and materials are told when the project is loaded.
+    /// and materials are told when the project is loaded, or here if it measures nothing.
     pub findings: Vec<Warning>,
     /// Whether there is something to measure: a sensor or a camera.
     pub measures: bool,
@@ -84,7 +85,10 @@ pub fn import_honeybee(bytes: &[u8], terms: &ImportTerms<'_>) -> Result<Imported
                     to the project, or grids to the model";
         writer.findings.note("properties.radiance", note);
     }
-    let findings = writer.findings.into_warnings(terms.model).collect();
+    let mut findings: Vec<Warning> = writer.findings.into_warnings(terms.model).collect();
+    if !measures {
+        findings.extend(look_over(terms.model, &model)?);
+    }
     Ok(Imported { text: writer.text.0, files: writer.files, findings, measures })
 }
 

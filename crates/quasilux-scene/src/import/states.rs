@@ -19,7 +19,7 @@ impl Writer<'_> {
         }
         for (number, group) in surfaces.groups.iter().enumerate() {
             if number < MAX_GROUPS {
-                self.group(group);
+                self.group(group, &name_of(group, &surfaces.groups));
             } else {
                 let note = format!("groups beyond the first {MAX_GROUPS} stay in state 0");
                 self.findings.note(&format!("group \"{}\"", group.name), note);
@@ -32,9 +32,9 @@ impl Writer<'_> {
         }
     }
 
-    fn group(&mut self, group: &Group<'_>) {
+    fn group(&mut self, group: &Group<'_>, name: &str) {
         self.text.section("[[blinds]]");
-        self.text.key("name", &quoted(if group.name.is_empty() { "group" } else { &group.name }));
+        self.text.key("name", &quoted(name));
         for state in group.states() {
             if state.number > MAX_STATES {
                 let note = format!("states beyond the first {MAX_STATES} are left out");
@@ -98,4 +98,15 @@ impl Writer<'_> {
         }
         obj
     }
+}
+
+/// The name of a group, and one that no other has for a group of an empty name.
+fn name_of(group: &Group<'_>, all: &[Group<'_>]) -> String {
+    if !group.name.is_empty() {
+        return group.name.clone();
+    }
+    let is_free = |name: &String| all.iter().all(|other| other.name != *name);
+    let numbered = (2..).map(|number| format!("group {number}"));
+    let mut names = std::iter::once("group".to_owned()).chain(numbered);
+    names.find(is_free).expect("numbers do not end")
 }

@@ -410,6 +410,25 @@ fn shades_of_states_share_materials() {
     assert!(error.contains("more than 100000 shades of states"), "{error}");
 }
 
+/// A group of an empty name has one that is free.
+#[test]
+fn groups_without_a_name_have_one_of_their_own() {
+    let mut model = changing();
+    let radiance = "/properties/radiance/dynamic_group_identifier";
+    *model["rooms"][0]["faces"][2]["apertures"][0].pointer_mut(radiance).unwrap() = json!("");
+    *model["orphaned_shades"][0].pointer_mut(radiance).unwrap() = json!("group");
+    let blinds = loaded(&model, Some("a.wea")).blinds.expect("groups");
+    let names: Vec<&str> = blinds.groups.iter().map(|it| it.name.as_str()).collect();
+    assert_eq!(names, ["group 2", "group"]);
+}
+
+#[test]
+fn light_paths_are_told() {
+    let mut model = office();
+    model["properties"]["radiance"]["sensor_grids"][0]["light_path"] = json!([["south"]]);
+    assert!(findings(&model, None)[0].contains("its light_path is left out"));
+}
+
 #[test]
 fn groups_stay_in_their_first_state_without_a_year() {
     let found = loaded(&changing(), None);

@@ -10,6 +10,7 @@ mod glazing;
 mod gltf;
 mod honeybee;
 mod honeybee_corpus;
+mod honeybee_findings;
 mod honeybee_import;
 mod honeybee_mutations;
 mod materials;

@@ -135,14 +135,18 @@ fn what_goes_wrong_is_said() {
     refuses(&["import", "none.hbjson", "--out", "a.toml"], "none.hbjson: ");
     refuses(&["import", "model.hbjson", "--out", "site.wea"], "site.wea: is there already");
     folder.write("empty.hbjson", "{\"type\": \"Model\", \"rooms\": []}");
-    refuses(&["run", "empty.hbjson"], "empty.hbjson: no sensor grid, and no view");
+    refuses(&["run", "empty.hbjson"], "empty.hbjson: no triangles");
     folder.write("broken.hbjson", "{\"type\": \"Model\", \"rooms\": [{}]}");
     refuses(&["run", "broken.hbjson"], "broken.hbjson:1:30: rooms[0]: missing field `faces`");
     // A project without sensors is written, and lacks them.
     let mut bare = model();
     bare["properties"] = json!({});
+    bare["orphaned_shades"] =
+        json!([{"identifier": "line", "geometry": {"boundary": [[0, 0, 0], [1, 0, 0]]}}]);
     folder.write("bare.hbjson", bare.to_string());
+    refuses(&["run", "bare.hbjson"], "bare.hbjson: no sensor grid, and no view");
     let written = folder.quasilux(&["import", "bare.hbjson", "--out", "bare.toml"]);
     assert_eq!(written.code, Some(0));
     assert!(written.stderr.contains("add [[sensors]] or [[cameras]]"), "{}", written.stderr);
+    assert!(written.stderr.contains("a polygon of fewer than three corners"), "{}", written.stderr);
 }
