@@ -2,11 +2,13 @@
 
 use crate::arguments::ImportArguments;
 use crate::exit::{CliError, Exit};
+use crate::heartbeat::Heartbeat;
 use crate::print::tell;
-use crate::project;
+use crate::project::Project;
 use crate::results;
-use crate::source::{folder_of, import as import_model, is_model};
-use quasilux_scene::Imported;
+use crate::source::{Source, folder_of, import as import_model, is_model};
+use quasilux_scene::{Imported, ImportedFile, Warning};
+use std::path::Path;
 
 /// Writes the project and what it names, and says what of the model is not in it.
 pub(crate) fn import(arguments: &ImportArguments) -> Result<Exit, CliError> {
@@ -20,20 +22,31 @@ pub(crate) fn import(arguments: &ImportArguments) -> Result<Exit, CliError> {
         return Err(CliError::in_file(out.display(), None, message));
     }
     let folder = folder_of(out);
+    let stem = out.file_stem().unwrap_or_default().to_string_lossy();
+    let weather = weather.as_deref();
+    let Imported { text, files, findings, measures } =
+        import_model(model, weather, &folder, &stem)?;
+    let beside = |file: &ImportedFile| folder.join(&file.name);
+    if let Some(taken) = files.iter().map(beside).find(|path| path.exists()) {
+        let message = "is there already, and the project would have a file of this name; give \
+                       --out another name, or remove it";
+        return Err(CliError::in_file(taken.display(), None, message));
+    }
+    // Nothing is written of a project that cannot be loaded.
+    let warnings = if measures { warnings_of(model, weather)? } else { findings };
     if !folder.as_os_str().is_empty() {
         results::prepare(&folder)?;
     }
-    let stem = out.file_stem().unwrap_or_default().to_string_lossy();
-    let Imported { text, files, findings, measures } =
-        import_model(model, weather.as_deref(), &folder, &stem)?;
     for file in &files {
-        results::write_atomic(&folder.join(&file.name), &file.bytes)?;
+        results::write_atomic(&beside(file), &file.bytes)?;
     }
     results::write_atomic(out, text.as_bytes())?;
-    findings.iter().for_each(|finding| tell(format_args!("warning: {finding}")));
-    if measures {
-        let loaded = project::open(out)?.loaded;
-        loaded.warnings.iter().for_each(|warning| tell(format_args!("warning: {warning}")));
-    }
+    warnings.iter().for_each(|warning| tell(format_args!("warning: {warning}")));
     Ok(Exit::Done)
+}
+
+/// What is said of a model as a project, which has to load.
+fn warnings_of(model: &Path, weather: Option<&Path>) -> Result<Vec<Warning>, CliError> {
+    let _signs_of_life = Heartbeat::new(&format!("reading {}", model.display()));
+    Ok(Project::load(Source::of_model(model, weather)?)?.loaded.warnings)
 }

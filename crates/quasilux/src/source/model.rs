@@ -53,7 +53,6 @@ impl Source {
 
 /// A file as a project in a folder names it: from the folder if they share one, else from the root.
 fn seen_from(folder: &Path, file: &Path) -> String {
-    let whole = |path: &Path| path.canonicalize().unwrap_or_else(|_| from_the_root(path));
     let folder = whole(if folder.as_os_str().is_empty() { Path::new(".") } else { folder });
     let beside =
         whole(file.parent().filter(|it| !it.as_os_str().is_empty()).unwrap_or(Path::new(".")));
@@ -67,6 +66,16 @@ fn seen_from(folder: &Path, file: &Path) -> String {
     let down =
         file.components().skip(shared).map(|it| it.as_os_str().to_string_lossy().into_owned());
     up.chain(down).collect::<Vec<String>>().join("/")
+}
+
+/// A path from the root without links, as far as there is something.
+fn whole(path: &Path) -> PathBuf {
+    let path = from_the_root(path);
+    match (path.canonicalize(), path.parent(), path.file_name()) {
+        (Ok(found), ..) => found,
+        (Err(_), Some(folder), Some(name)) => whole(folder).join(name),
+        _ => path,
+    }
 }
 
 /// The folder of a file.

@@ -101,6 +101,28 @@ fn a_model_with_windows_has_a_daylight_factor_and_a_year() {
     assert_eq!(folder.read("again/hours.csv"), folder.read("year/hours.csv"));
 }
 
+/// A refusal leaves files as they are, and none of its own.
+#[test]
+fn import_writes_all_or_nothing() {
+    let folder = folder("honeybee_files", &with_lamp());
+    folder.write("p-lamp.ies", "mine");
+    let import = |model: &str, out: &str| {
+        let run = folder.quasilux(&["import", model, "--out", out]);
+        (run.code, run.stderr)
+    };
+    let (code, told) = import("model.hbjson", "p.toml");
+    assert!(code == Some(2) && told.contains("p-lamp.ies: is there already"), "{told}");
+    assert_eq!(folder.read("p-lamp.ies"), "mine");
+    assert!(!folder.path("p.toml").exists());
+    let mut odd = with_lamp();
+    odd["rooms"][0]["faces"][0]["properties"] =
+        json!({"radiance": {"modifier": {"type": "Ashik2", "identifier": "odd"}}});
+    folder.write("odd.hbjson", odd.to_string());
+    let (code, told) = import("odd.hbjson", "of/q.toml");
+    assert!(code == Some(2) && told.contains("Ashik2"), "{told}");
+    assert!(!folder.path("of").exists());
+}
+
 /// The areas of a mesh weigh shares of the area.
 #[test]
 fn meshes_weigh_the_area_with_enough_light() {
