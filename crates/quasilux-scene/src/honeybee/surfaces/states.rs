@@ -98,7 +98,9 @@ impl<'m> Collector<'_, 'm> {
             };
             self.count_state_shade(&place)?;
             let name = shade.identifier.as_str();
-            let (material, look) = self.state_material(group, number, modifier, name)?;
+            let modifier = self.first_like(modifier);
+            let look = self.look_in_place(modifier, name)?;
+            let material = self.state_material(group, number, modifier, &look)?;
             match material {
                 StateMaterial::InScene(material) => {
                     self.push(name, material, shape, &place, false);
@@ -126,19 +128,17 @@ impl<'m> Collector<'_, 'm> {
         Err(LoadError::new(self.file, None, message))
     }
 
-    /// The material of the shades that a state of a group has of one modifier, with its look.
+    /// The material of the shades that a state of a group has of one modifier.
     fn state_material(
         &mut self,
         group: usize,
         number: usize,
         modifier: &'m Modifier,
-        name: &str,
-    ) -> Result<(StateMaterial, Look), LoadError> {
-        let modifier = self.first_like(modifier);
-        let look = self.look_in_place(modifier, name)?;
+        look: &Look,
+    ) -> Result<StateMaterial, LoadError> {
         let key = (group, number, std::ptr::from_ref(modifier));
         if let Some(known) = self.state_materials.get(&key) {
-            return Ok((known.clone(), look));
+            return Ok(known.clone());
         }
         let material_name = format!("group {} state {number}", self.short_name(group));
         let material = if number == 0 {
@@ -150,7 +150,7 @@ impl<'m> Collector<'_, 'm> {
             StateMaterial::Added(self.names.new_name(&plain(&material_name)))
         };
         self.state_materials.insert(key, material.clone());
-        Ok((material, look))
+        Ok(material)
     }
 
     /// The beginning of a group's name.
