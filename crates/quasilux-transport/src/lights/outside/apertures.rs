@@ -96,11 +96,23 @@ impl Apertures {
         Some(ThroughApertures { point, per_density_m2: sum_m2 / crossed })
     }
 
-    /// The most that [`ThroughApertures::per_density_m2`] can be for a direction.
-    pub(super) fn most_m2(&self, direction: DVec3) -> f64 {
-        let open = self.apertures.iter().map(|it| it.open_to(direction));
-        let least = open.fold(f64::INFINITY, f64::min);
-        self.apertures.iter().map(|it| it.size_m2(direction)).sum::<f64>() / least
+    /// The most that [`ThroughApertures::per_density_m2`] can be for directions within this angle
+    /// in radians of one.
+    pub(super) fn most_m2(&self, direction: DVec3, within: f64) -> f64 {
+        let (mut least, mut sum_m2) = (f64::INFINITY, 0.0);
+        for aperture in &self.apertures {
+            let cos = aperture.n.dot(direction);
+            // Edge-on some may come to either side.
+            let [few, many] = match cos.abs() > within {
+                true => [aperture.open_to(direction); 2],
+                false => {
+                    [aperture.open[0].min(aperture.open[1]), aperture.open[0].max(aperture.open[1])]
+                }
+            };
+            least = least.min(few);
+            sum_m2 += aperture.area_m2 * (cos.abs() + within) * many;
+        }
+        sum_m2 / least
     }
 
     /// Density in m^-2, among lines of its direction, of [`Self::sample_line`] at that through a
@@ -174,6 +186,29 @@ mod tests {
             let expected_m2 = f64::from(met) / f64::from(grid * grid) * edge_m * edge_m;
             assert!((drawn_m2 / expected_m2 - 1.0).abs() < 0.01, "{drawn_m2}, not {expected_m2}");
         }
+    }
+
+    /// Lines toward all of a disk like the sun's, high, low, and edge-on to openings: none stands
+    /// for more than the most, which with the middle of the disk alone one of them does.
+    #[test]
+    fn no_line_from_a_disk_stands_for_more_than_the_most() {
+        let apertures = Apertures::new(&portals(), &[[1.0, 0.5], [0.25, 1.0], [0.7, 1.0]], 10.0);
+        let (within, mut passed_middle) = (0.00465, false);
+        for middle in [DVec3::new(0.3, 0.5, -0.8), DVec3::new(1.0, 0.01, -0.001), DVec3::X] {
+            let middle = middle.normalize();
+            let a = middle.any_orthonormal_vector();
+            let b = middle.cross(a);
+            let most_m2 = apertures.most_m2(middle, within);
+            for index in 0..2000 {
+                let [turn, u, v] = [2, 3, 5].map(|base| radical_inverse(base, index + 1));
+                let (sin, cos) = libm::sincos(std::f64::consts::TAU * turn);
+                let direction = (middle + (a * cos + b * sin) * within).normalize();
+                let Some(line) = apertures.sample_line(direction, [u, v]) else { continue };
+                assert!(line.per_density_m2 <= most_m2, "{direction}");
+                passed_middle |= line.per_density_m2 > apertures.most_m2(middle, 0.0);
+            }
+        }
+        assert!(passed_middle);
     }
 
     #[test]

@@ -40,6 +40,11 @@ impl Hull {
         self.faces_m2(direction).iter().sum()
     }
 
+    /// The largest silhouette in m^2 along directions within this angle in radians of one.
+    pub(super) fn most_m2(&self, direction: DVec3, within: f64) -> f64 {
+        self.silhouette_m2(direction) + within * self.faces_m2(DVec3::ONE).iter().sum::<f64>()
+    }
+
     /// Silhouettes of the faces across each axis that light of this direction comes in by.
     fn faces_m2(&self, direction: DVec3) -> [f64; 3] {
         let [x, y, z] = (self.high - self.low).to_array();

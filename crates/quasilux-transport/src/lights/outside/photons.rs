@@ -24,6 +24,7 @@ use crate::spectrum::Spectrum;
 use crate::world::World;
 use glam::DVec3;
 use quasilux_scene::{Scene, SensorShape};
+use std::f64::consts::FRAC_1_PI;
 
 /// The least share of the photons, where there are openings, for lines beside them, and the most.
 const BESIDE_OPENINGS: [f64; 2] = [0.03, 0.9];
@@ -199,18 +200,23 @@ impl OutsidePhotons {
     /// About the most flux in lm that a photon carries, where one in each is of this way.
     pub(crate) fn most_lm(&self, outside: &OutsideLight<'_>, way: usize) -> f64 {
         let way = &self.ways[way];
-        let size_m2 = |direction: DVec3| match &way.gate {
-            Gate::Hull => self.hull.silhouette_m2(direction),
-            Gate::Openings(apertures) => apertures.most_m2(direction),
+        let size_m2 = |direction: DVec3, within: f64| match &way.gate {
+            Gate::Hull => self.hull.most_m2(direction, within),
+            Gate::Openings(apertures) => apertures.most_m2(direction, within),
         };
         match (&way.directions, &outside.sun) {
             (Some(table), _) => DirectionTable::middles()
                 .map(|towards| {
                     let lm_m2 = outside.luminance_cd_m2(towards) / table.pdf_direction_sr(towards);
-                    lm_m2 * size_m2(-towards)
+                    lm_m2 * size_m2(-towards, 0.0)
                 })
                 .fold(0.0, f64::max),
-            (None, Some(sun)) => sun.normal_illuminance_lx * size_m2(-sun.direction),
+            (None, Some(sun)) => {
+                let radius = (sun.solid_angle_sr * FRAC_1_PI).sqrt();
+                let lm_m2 = sun.luminance_cd_m2 * sun.solid_angle_sr;
+                // The disk is that of a plane within a part in 10^5.
+                lm_m2 * size_m2(-sun.direction, 1.001 * radius)
+            }
             (None, None) => 0.0,
         }
     }
