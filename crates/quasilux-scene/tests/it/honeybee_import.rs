@@ -391,9 +391,11 @@ fn members_of_fewer_states_keep_their_last_one() {
 fn shades_of_states_share_materials() {
     let mut model = changing();
     let states = "/rooms/0/faces/2/apertures/0/properties/radiance/states";
-    let shades: Vec<Value> = (0..50_i32)
-        .map(|i| json!({"identifier": "slat", "geometry": upright(f64::from(-i), [1.0, 1.0], [2.0, 2.0])}))
-        .collect();
+    let slat = |number: i32| {
+        let geometry = upright(f64::from(-number), [1.0, 1.0], [2.0, 2.0]);
+        json!({"identifier": "slat", "geometry": geometry})
+    };
+    let shades: Vec<Value> = (0..50).map(slat).collect();
     *model.pointer_mut(&format!("{states}/2/shades")).unwrap() = json!(shades);
     let imported = import(&model, Some("a.wea")).unwrap();
     assert_eq!(imported.text.matches("group_south__1__state_2").count(), 1, "{}", imported.text);
