@@ -235,7 +235,7 @@ mod tests {
         expect_area(&wall, &[rectangle([5.0, 2.0], [6.0, 4.0])], 12.0);
     }
 
-    /// What is left is nothing but rounding.
+    /// Rests of nothing but rounding are no gap.
     #[test]
     fn glass_that_covers_its_face_is_as_expected() {
         let wall = rectangle([0.1, 0.0], [4.7, 3.3]);

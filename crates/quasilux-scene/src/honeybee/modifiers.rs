@@ -9,7 +9,7 @@ use super::slots::Slot;
 use crate::LoadError;
 use std::collections::HashMap;
 
-/// What models call Honeybee's own set, which is in no file.
+/// Name by which models call Honeybee's own set, which is in no file.
 const HONEYBEES_OWN_SET: &str = "Generic_Interior_Visible_Modifier_Set";
 
 /// All modifiers and sets of a model.

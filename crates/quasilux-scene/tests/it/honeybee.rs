@@ -260,7 +260,7 @@ fn faces_between_rooms_come_once_and_air_boundaries_not_at_all() {
     close(area(&loaded(&model(&rooms[..1])).scene, |_| true), 59.0);
 }
 
-/// What is said of the side that comes second, and is not that of the first one, is told.
+/// Facts of the side that comes second are told where they are not those of the first one.
 #[test]
 fn states_of_the_second_side_are_told() {
     let mut rooms =

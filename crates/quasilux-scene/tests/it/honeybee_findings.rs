@@ -17,7 +17,7 @@ fn a_box() -> Value {
 }
 
 /// A model with modifiers, the first of which the south wall has.
-fn of(modifiers: Value) -> Value {
+fn with_modifiers(modifiers: Value) -> Value {
     let mut model = a_box();
     model["rooms"][0]["faces"][2]["properties"]["radiance"]["modifier"] =
         modifiers[0]["identifier"].clone();
@@ -37,17 +37,18 @@ fn modifiers_say_what_they_lose() {
                "b_reflectance": 0.5, "specularity": specularity, "roughness": 0.1,
                "transmitted_diff": transmitted, "transmitted_spec": transmitted})
     };
-    expect(&of(json!([grey("Plastic", 0.5, 0.0)])), "above 0.44");
-    expect(&of(json!([grey("Trans", 0.0, 0.5)])), "its roughness is left out");
-    let twins = of(json!([grey("Plastic", 0.0, 0.0), grey("Plastic", 0.1, 0.0)]));
+    expect(&with_modifiers(json!([grey("Plastic", 0.5, 0.0)])), "above 0.44");
+    expect(&with_modifiers(json!([grey("Trans", 0.0, 0.5)])), "its roughness is left out");
+    let twins = with_modifiers(json!([grey("Plastic", 0.0, 0.0), grey("Plastic", 0.1, 0.0)]));
     expect(&twins, "modifier \"m\": the model has different modifiers of this name");
-    let twins = of(json!([grey("Plastic", 0.0, 0.0), grey("Plastic", 0.0, 0.0)]));
+    let twins = with_modifiers(json!([grey("Plastic", 0.0, 0.0), grey("Plastic", 0.0, 0.0)]));
     assert_eq!(load(&twins), Ok(vec![]));
 }
 
 #[test]
 fn measured_sheets_say_what_they_lose() {
-    let mut model = of(json!([{"type": "BSDF", "identifier": "m", "bsdf_data": "<a/>"}]));
+    let mut model =
+        with_modifiers(json!([{"type": "BSDF", "identifier": "m", "bsdf_data": "<a/>"}]));
     let told = |model: &Value, key: &str, value: Value| {
         let mut model = model.clone();
         model["properties"]["radiance"]["modifiers"][0][key] = value;
@@ -76,7 +77,7 @@ fn holes_of_windows_are_told() {
     expect(&model, "rooms[0].faces[2]: holes of its apertures and doors are open");
 }
 
-/// What `quasilux import` would leave out is not said to be in what it writes.
+/// Parts that `quasilux import` would leave out are not said to be in its files.
 #[test]
 fn only_what_can_be_had_is_missed() {
     let mut model = a_box();

@@ -45,7 +45,7 @@ pub(crate) fn import(arguments: &ImportArguments) -> Result<Exit, CliError> {
     Ok(Exit::Done)
 }
 
-/// What is said of a model as a project, which has to load.
+/// Warnings of a model as a project, which has to load.
 fn warnings_of(model: &Path, weather: Option<&Path>) -> Result<Vec<Warning>, CliError> {
     let _signs_of_life = Heartbeat::new(&format!("reading {}", model.display()));
     Ok(Project::load(Source::of_model(model, weather)?)?.loaded.warnings)
