@@ -362,7 +362,7 @@ fn states_whose_rows_do_not_fit_are_refused() {
     let whole = simulate(&scene, &settings, &mut keeper);
     let state = keeper.states.last().expect("a state after a checkpoint");
     assert_eq!(resume(&scene, &settings, state, &mut ()).as_ref(), Ok(&whole));
-    for replicates in [1, 3, 5, 400] {
+    for replicates in [1, 2, 4, 400].into_iter().filter(|count| *count != settings.replicates) {
         let other = Settings { replicates, ..settings.clone() };
         assert!(resume(&scene, &other, state, &mut ()).is_err(), "{replicates} replicates");
     }
