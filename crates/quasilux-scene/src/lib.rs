@@ -42,7 +42,7 @@ pub use light::Light;
 pub use load::{Loaded, Places, load};
 pub use mesh::Mesh;
 pub use nearest::nearest;
-pub use project::{LengthUnit, SimulationSection};
+pub use project::{LengthUnit, SimulationSection, is_file_name};
 pub use quasilux_text::Position;
 pub use rgb::Rgb;
 pub use scene::{Material, Scene};

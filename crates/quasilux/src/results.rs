@@ -162,6 +162,11 @@ pub(crate) fn stream_atomic(
         .map_err(|error| cannot_write(path, &error))
 }
 
+/// Says of a file that it cannot be read again.
+pub(crate) fn cannot_read(path: &Path, error: &io::Error) -> CliError {
+    CliError::in_file(path.display(), None, format!("cannot be read again: {error}"))
+}
+
 /// Says of a file of results that it cannot be written.
 pub(crate) fn cannot_write(path: &Path, error: &io::Error) -> CliError {
     CliError::in_file(path.display(), None, format!("cannot write results: {error}"))

@@ -54,6 +54,10 @@ pub struct PointOfHours {
     pub illuminance_lx: Vec<f32>,
     /// Their half-widths.
     pub half_width_lx: Vec<f32>,
+    /// Illuminances in lx straight from the sun with all blinds open, in the same order; empty
+    /// where a point was kept, and read again.
+    #[serde(skip)]
+    pub sun_lx: Vec<f32>,
     /// Half-width over standard error of its intervals; `None` of a single replicate.
     pub(super) t: Option<f64>,
     /// Illuminances in lx by replicate and hour with light; empty where nobody needs them any more.
@@ -132,6 +136,7 @@ impl PointOfHours {
             },
             illuminance_lx: by_interval(&of_year.means),
             half_width_lx: by_interval(&half_widths),
+            sun_lx: by_interval(&of_sun.means),
             t,
             by_replicate: point.illuminance_lx,
         }

@@ -25,6 +25,7 @@ mod simulation;
 mod units;
 
 pub use keys::{Key, KeyTable};
+pub use names::is_file_name;
 pub use reference::reference;
 pub use renamed::{REFUSED_KEYS, RefusedKey};
 pub use simulation::{SimulationSection, doubt_of_tolerance};

@@ -63,7 +63,8 @@ impl Names {
 }
 
 /// Whether a name can be the name of a file on every system.
-fn is_file_name(name: &str) -> bool {
+#[must_use]
+pub fn is_file_name(name: &str) -> bool {
     let forbidden = |c: char| c.is_control() || "/\\:*?\"<>|".contains(c);
     let reserved = ["con", "prn", "aux", "nul"].iter().any(|word| name.eq_ignore_ascii_case(word));
     let edges = name.starts_with(['.', ' ', '-']) || name.ends_with(['.', ' ']);

@@ -26,6 +26,10 @@ pub(crate) struct AnnualArguments {
     #[arg(long, value_name = "k/n", value_parser = slice, requires = "checkpoint",
         conflicts_with_all = ["out", "json"])]
     pub(crate) shard: Option<Slice>,
+    /// Write the year to this folder, too, as Honeybee's recipe "annual daylight" does, for what
+    /// goes on from there (LEED, BREEAM, WELL, EN 17037)
+    #[arg(long, value_name = "FOLDER", conflicts_with = "checkpoint")]
+    pub(crate) honeybee: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) output: OutputArguments,
 }

@@ -101,6 +101,129 @@ fn a_model_with_windows_has_a_daylight_factor_and_a_year() {
     assert_eq!(folder.read("again/hours.csv"), folder.read("year/hours.csv"));
 }
 
+/// The numbers of an .npy file of 32-bit floats in two dimensions, row by row.
+fn rows(folder: &Folder, path: &str) -> Vec<Vec<f32>> {
+    let bytes = std::fs::read(folder.path(path)).expect("an array");
+    let begin = 10 + usize::from(u16::from_le_bytes([bytes[8], bytes[9]]));
+    let header = std::str::from_utf8(&bytes[10..begin]).expect("text");
+    let shape = header.split(['(', ')']).nth(1).expect("a shape");
+    let shape: Vec<usize> = shape.split(',').filter_map(|n| n.trim().parse().ok()).collect();
+    let numbers = bytes[begin..].chunks_exact(4);
+    let numbers: Vec<f32> =
+        numbers.map(|it| f32::from_le_bytes(it.try_into().expect("4 bytes"))).collect();
+    assert_eq!(numbers.len(), shape[0] * shape[1]);
+    numbers.chunks(shape[1]).map(<[f32]>::to_vec).collect()
+}
+
+/// Weather of two days as far as Honeybee's folder is asked for it.
+const YEAR: [&str; 6] = ["annual", "model.hbjson", "--weather", "site.wea", "--rel-tol", "10%"];
+
+/// Without groups the folder has the hours of the year as it is.
+#[test]
+fn a_year_is_written_as_the_recipe_writes_it() {
+    let folder = folder("honeybee_out", &model());
+    let out = ["--out", "year", "--honeybee", "out"];
+    let done = folder.quasilux(&[&YEAR[..], &out].concat());
+    assert_eq!(done.code, Some(0), "{}", done.stderr);
+    assert_eq!(
+        folder.read("out/results/sun-up-hours.txt"),
+        "1882.5\n1883.5\n1884.5\n1907.5\n1908.5\n"
+    );
+    let info = parsed(&folder.read("out/results/grids_info.json"));
+    assert_eq!(info[0]["full_id"], "table");
+    assert_eq!(
+        (&info[0]["count"], &info[0]["light_path"]),
+        (&json!(2), &json!([["__static_apertures__"]]))
+    );
+    let array = |kind: &str| {
+        rows(&folder, &format!("out/results/__static_apertures__/default/{kind}/table.npy"))
+    };
+    let [total, direct, half_width] = ["total", "direct", "half_width"].map(array);
+    let year = parsed(&folder.read("year/annual.json"));
+    for (point, (total, half_width)) in total.iter().zip(&half_width).enumerate() {
+        // The light exposure of an hour an interval is the sum of its illuminances.
+        let exposure = number(&year, &format!("/sensors/0/points/{point}/exposure_lx_h"));
+        let sum: f64 = total.iter().map(|lx| f64::from(*lx)).sum();
+        assert!((sum - exposure).abs() < 1e-5 * exposure, "{sum} lx h of {exposure}");
+        assert!(half_width.iter().zip(total).all(|(width, lx)| 0.0 < *width && width < lx));
+    }
+    assert!(direct.iter().flatten().zip(total.iter().flatten()).all(|(sun, all)| sun <= all));
+    assert!(direct.iter().all(|hours| hours[1] == 0.0), "no sun in the second hour");
+    let metric = folder.read("out/metrics/da/table.da");
+    let shares = metric.lines().map(|line| line.parse::<f64>().expect("percent") / 100.0);
+    for (point, share) in shares.enumerate() {
+        let own = number(&year, &format!("/sensors/0/points/{point}/daylight_autonomy"));
+        assert!((share - own).abs() < 1e-4, "{share} of {own}");
+    }
+    assert_eq!(folder.read("out/model.hbjson"), folder.read("model.hbjson"));
+    // Results that are there stay.
+    let again = folder.quasilux(&[&YEAR[..], &out].concat());
+    assert!(again.code == Some(2) && again.stderr.contains("is there already"), "{}", again.stderr);
+}
+
+/// Light by the groups of windows and light by no group is together that of the open room.
+#[test]
+fn light_paths_add_up() {
+    let mut model = model();
+    let glass = |name: &str, share: f64| {
+        json!({"type": "Glass", "identifier": name, "r_transmissivity": share,
+               "g_transmissivity": share, "b_transmissivity": share})
+    };
+    let modifiers = model["properties"]["radiance"]["global_modifier_set"]["modifiers"].take();
+    let [black] = modifiers.as_array().expect("modifiers").as_slice() else { panic!() };
+    let all = json!([black, glass("clear", 0.9), glass("dark", 0.2)]);
+    model["properties"]["radiance"]["global_modifier_set"]["modifiers"] = all.clone();
+    model["properties"]["radiance"]["modifiers"] = all;
+    let windows = [("none", [2, 4]), ("west", [5, 7]), ("east", [8, 11])];
+    let windows = windows.map(|(name, [from, to])| {
+        let corners = [[from, 0, 3], [to, 0, 3], [to, 0, 8], [from, 0, 8]];
+        let mut window = json!({"identifier": name, "geometry": {"boundary": corners}});
+        if name != "none" {
+            window["properties"] = json!({"radiance": {"dynamic_group_identifier": name,
+                "states": [{"modifier": "clear"}, {"modifier": "dark"}]}});
+        }
+        window
+    });
+    model["rooms"][0]["faces"][2]["apertures"] = json!(windows);
+    let folder = folder("honeybee_paths", &model);
+    let run = |more: &[&str]| {
+        let done = folder.quasilux(&[&YEAR[..4], &["--rel-tol", "3%"], more].concat());
+        assert_eq!(done.code, Some(0), "{}", done.stderr);
+    };
+    run(&["--out", "year", "--honeybee", "out"]);
+    let states = parsed(&folder.read("out/results/grid_states.json"));
+    assert_eq!(
+        states["table"],
+        json!({"east": ["0_east", "1_east"], "west": ["0_west", "1_west"]})
+    );
+    // The same room, whose windows do not change.
+    for window in model["rooms"][0]["faces"][2]["apertures"].as_array_mut().expect("windows") {
+        if window["identifier"] != "none" {
+            window["properties"] = json!({"radiance": {"modifier": "clear"}});
+        }
+    }
+    folder.write("model.hbjson", model.to_string());
+    run(&["--out", "open", "--honeybee", "whole"]);
+    let array = |path: &str, kind: &str| rows(&folder, &format!("{path}/{kind}/table.npy"));
+    let whole = "whole/results/__static_apertures__/default";
+    let paths = ["__static_apertures__/default", "west/0_west", "east/0_east"];
+    let paths = paths.map(|path| format!("out/results/{path}"));
+    for point in 0..2 {
+        for hour in 0..5 {
+            let of = |path: &str, kind: &str| array(path, kind)[point][hour];
+            let sum: f32 = paths.iter().map(|path| of(path, "total")).sum();
+            let squares = paths.iter().map(|path| of(path, "half_width").powi(2));
+            let width = (squares.sum::<f32>() + of(whole, "half_width").powi(2)).sqrt();
+            let own = of(whole, "total");
+            assert!((sum - own).abs() < 1.5 * width, "{sum} +- {width}, not {own}");
+            let sun: f32 = paths.iter().map(|path| of(path, "direct")).sum();
+            assert!((sun - of(whole, "direct")).abs() <= 1e-3 * sun.abs().max(1.0));
+            let [open, dark] = [0, 1].map(|it| of(&format!("out/results/east/{it}_east"), "total"));
+            assert!(dark < 0.3 * open, "{dark} lx of {open}");
+        }
+    }
+}
+
 /// A refusal leaves files as they are, and none of its own.
 #[test]
 fn import_writes_all_or_nothing() {

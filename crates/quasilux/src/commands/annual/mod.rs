@@ -1,27 +1,32 @@
 //! `quasilux annual`: the daylight of a year, hour by hour.
 //!
 //! Points come in blocks, from the simulation (`year`) or from what was kept of it (`kept`), and
-//! become the files of results (`sink`), on disk or in memory (`in_memory`).
+//! become the files of results (`sink`), on disk or in memory (`in_memory`), and those that
+//! Honeybee's recipe leaves (`honeybee`).
 
+mod honeybee;
 mod in_memory;
 mod kept;
 mod sink;
 mod year;
 
 use super::{Folder, count};
-use crate::arguments::AnnualArguments;
+use crate::arguments::{AnnualArguments, OutputArguments};
 use crate::checkpoint::{Heading, RunPaths};
 use crate::exit::{CliError, Exit};
 use crate::interrupt;
+use crate::print::print;
 use crate::project::{self, Project};
 use crate::source::{Source, is_model};
 use crate::year_file::{YearHeading, YearWriter};
+use honeybee::HoneybeeFolder;
 pub(crate) use in_memory::year_in_memory;
 pub use in_memory::{FinishedYear, YearListener};
 use kept::Keeper;
 pub(super) use kept::{merge_years, resume_year};
 pub use sink::YearFile;
 use std::ops::Range;
+use std::path::Path;
 use year::Year;
 
 /// Simulates a year, or a part of it, writes its results and prints what was asked for.
@@ -34,6 +39,13 @@ pub(crate) fn annual(arguments: &AnnualArguments) -> Result<Exit, CliError> {
     let year = Year::new(&project, settings, arguments.year.occupied.as_ref(), threads)?;
     let points = points(arguments, year.points())?;
     let folder = arguments.output.out.clone().unwrap_or_else(|| Folder::by_name(file));
+    if let Some(neighbours) = &arguments.honeybee {
+        let exit = for_honeybee(&year, &folder, neighbours, &arguments.output)?;
+        if exit != Exit::Interrupted && is_model(file) {
+            honeybee::copy_model(file, neighbours)?;
+        }
+        return Ok(exit);
+    }
     let Some(path) = &arguments.checkpoint else {
         return year.deliver(&folder, &arguments.output, |sink| {
             year.simulate(points, &mut |block| sink.take(&block))
@@ -59,6 +71,27 @@ pub(crate) fn annual(arguments: &AnnualArguments) -> Result<Exit, CliError> {
             sink.take(&block)
         })
     })
+}
+
+/// Simulates a year, and writes it to Honeybee's folder, too.
+fn for_honeybee(
+    year: &Year<'_>,
+    folder: &Path,
+    neighbours: &Path,
+    output: &OutputArguments,
+) -> Result<Exit, CliError> {
+    let mut honeybee = HoneybeeFolder::begin(neighbours, year)?;
+    let exit = year.deliver(folder, output, |sink| {
+        year.simulate(0..year.points(), &mut |block| {
+            honeybee.take(&block)?;
+            sink.take(&block)
+        })
+    })?;
+    let is_complete = exit != Exit::Interrupted && honeybee.end()?;
+    if is_complete && !(output.quiet || output.json) {
+        print(&format!("results for Honeybee in {}\n", neighbours.display()))?;
+    }
+    Ok(if is_complete { exit } else { Exit::Interrupted })
 }
 
 /// The project, or that of a model in its weather.

@@ -50,6 +50,13 @@ struct OwnRoom {
     is_own: Vec<bool>,
 }
 
+/// A room that a year is traced in, and those that it becomes in some hours.
+#[derive(Clone, Copy)]
+pub(super) struct TracedRoom<'r> {
+    scene: &'r Scene,
+    other_rooms: &'r [OtherRoom<'r>],
+}
+
 /// Where blocks go.
 pub(super) type Keep<'k> = dyn FnMut(YearBlock) -> Result<(), CliError> + Send + 'k;
 
@@ -122,6 +129,14 @@ impl<'p> Year<'p> {
         })
     }
 
+    pub(super) fn project(&self) -> &Project {
+        self.project
+    }
+
+    pub(super) fn calendar(&self) -> &Calendar {
+        &self.calendar
+    }
+
     /// How many points there are, through all sensors.
     pub(super) fn points(&self) -> usize {
         self.project.loaded.scene.sensors.iter().map(Sensor::len).sum()
@@ -167,14 +182,13 @@ impl<'p> Year<'p> {
         points: Range<usize>,
         keep: &mut Keep<'_>,
     ) -> Result<bool, CliError> {
-        let meter = Meter::new(1);
-        let goes_on = |share: f64| {
-            meter.show(share);
-            !interrupt::requested()
-        };
-        let is_complete = self.trace(points, keep, &goes_on);
-        interrupt::keep_results();
-        is_complete
+        watched(|goes_on| self.trace(points, keep, goes_on))
+    }
+
+    /// Simulates all points in another room, as [`Self::simulate`] does.
+    pub(super) fn simulate_in(&self, scene: &Scene, keep: &mut Keep<'_>) -> Result<bool, CliError> {
+        let room = TracedRoom { scene, other_rooms: &[] };
+        watched(|goes_on| self.trace_in(room, 0..self.points(), keep, goes_on))
     }
 
     /// Traces the year, with an observer that is told how far it is and may end it.
@@ -184,21 +198,33 @@ impl<'p> Year<'p> {
         keep: &mut Keep<'_>,
         goes_on: &(dyn Fn(f64) -> bool + Sync),
     ) -> Result<bool, CliError> {
-        if points.is_empty() {
-            return Ok(true);
-        }
-        let loaded = &self.project.loaded;
         let rooms = self.rooms()?;
         let other_rooms = rooms.iter().map(|OwnRoom { scene, is_own }| OtherRoom { scene, is_own });
         let other_rooms: Vec<OtherRoom<'_>> = other_rooms.collect();
-        let hours = YearHours { skies: &self.calendar.skies, other_rooms: &other_rooms };
+        let room = TracedRoom { scene: &self.project.loaded.scene, other_rooms: &other_rooms };
+        self.trace_in(room, points, keep, goes_on)
+    }
+
+    /// Traces the year in a room that may be another than the project's, with the same sensors.
+    pub(super) fn trace_in(
+        &self,
+        room: TracedRoom<'_>,
+        points: Range<usize>,
+        keep: &mut Keep<'_>,
+        goes_on: &(dyn Fn(f64) -> bool + Sync),
+    ) -> Result<bool, CliError> {
+        if points.is_empty() {
+            return Ok(true);
+        }
+        let TracedRoom { scene, other_rooms } = room;
+        let hours = YearHours { skies: &self.calendar.skies, other_rooms };
         let thresholds = self.terms.thresholds;
         let digest = |point: PointOfYear| {
             let is_dimmed = self.is_dimmed(point.number);
             let point = PointOfHours::new(point, &self.calendar, &thresholds);
             if is_dimmed { point } else { point.slimmed() }
         };
-        let (scene, settings) = (&loaded.scene, &self.settings);
+        let settings = &self.settings;
         let run = YearRun { scene, hours, points, settings, digest: &digest, goes_on };
         let mut blocks = Blocks::new(keep);
         let work = self.pool.install(|| simulate_year(run, &mut blocks));
@@ -308,6 +334,19 @@ impl<'p> Year<'p> {
         report.sun_hours = self.pool.install(look).map_err(CliError::new)?;
         Ok(report)
     }
+}
+
+/// Traces, shows how far it is, and ends by an interrupt.
+fn watched(
+    trace: impl FnOnce(&(dyn Fn(f64) -> bool + Sync)) -> Result<bool, CliError>,
+) -> Result<bool, CliError> {
+    let meter = Meter::new(1);
+    let is_complete = trace(&|share: f64| {
+        meter.show(share);
+        !interrupt::requested()
+    });
+    interrupt::keep_results();
+    is_complete
 }
 
 /// The weather of a project that can have a year.

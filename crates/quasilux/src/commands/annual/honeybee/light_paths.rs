@@ -1,0 +1,120 @@
+//! By which ways light comes, as Honeybee tells them apart: through the windows of each group of
+//! blinds, and by all other ways.
+//!
+//! Light adds up, but for what the window of one group reflects into that of another: what comes
+//! by a group in a state is what there is with the windows of all other groups black, less what
+//! there is with those of all groups black. Groups without windows are no light paths, and stay
+//! open, as dynamic shades do there.
+
+use quasilux_scene::bsdf::Diffuse;
+use quasilux_scene::{Blinds, BlindsGroup, Bsdf, Loaded, Rgb, Scene, is_file_name};
+use std::collections::HashSet;
+
+/// The light path of all that is in no group, and the name of its one state.
+pub(super) const STATIC: &str = "__static_apertures__";
+pub(super) const STATIC_STATE: &str = "default";
+
+/// A group of blinds.
+#[derive(Debug)]
+pub(super) struct LightPath {
+    pub(super) name: String,
+    /// Open first.
+    pub(super) states: Vec<State>,
+}
+
+/// A state of a group.
+#[derive(Debug)]
+pub(super) struct State {
+    /// The name of its folder.
+    pub(super) name: String,
+    /// The room with the group in the state, and all other groups black.
+    pub(super) room: Scene,
+}
+
+/// Light paths of a project, and the names of the groups of blinds that are none.
+#[derive(Debug, Default)]
+pub(super) struct LightPaths {
+    pub(super) paths: Vec<LightPath>,
+    pub(super) others: Vec<String>,
+}
+
+/// Sorts the groups of blinds of a project.
+///
+/// # Errors
+/// In words, where a light path cannot be a folder.
+pub(super) fn light_paths(loaded: &Loaded) -> Result<LightPaths, String> {
+    let mut found = LightPaths::default();
+    let Some(blinds) = &loaded.blinds else { return Ok(found) };
+    let mut taken = HashSet::from([STATIC.to_owned()]);
+    for (number, group) in blinds.groups.iter().enumerate() {
+        let name = &group.name;
+        if windows_of(group, &loaded.scene).is_empty() {
+            found.others.push(name.clone());
+            continue;
+        }
+        if !is_file_name(name) || !taken.insert(name.to_lowercase()) {
+            return Err(format!(
+                "the group of blinds \"{name}\" is a folder of Honeybee's results; expected a \
+                 name that can be a file name, unique whatever its case"
+            ));
+        }
+        let state = |position: usize| State {
+            name: format!("{position}_{name}"),
+            room: room(loaded, blinds, number, position),
+        };
+        let states = (0..=group.positions.len()).map(state).collect();
+        found.paths.push(LightPath { name: name.clone(), states });
+    }
+    Ok(found)
+}
+
+/// The open room with the windows of all groups black.
+pub(super) fn without_groups(loaded: &Loaded) -> Scene {
+    let mut room = loaded.scene.clone();
+    for group in loaded.blinds.iter().flat_map(|blinds| &blinds.groups) {
+        blacken(&mut room, group, &loaded.scene);
+    }
+    room
+}
+
+/// The room with one group in a position, the others open and their windows black.
+fn room(loaded: &Loaded, blinds: &Blinds, number: usize, position: usize) -> Scene {
+    let mut positions = vec![0; blinds.groups.len()];
+    positions[number] = position;
+    let mut room = blinds.room(&loaded.scene, &positions);
+    for (other, group) in blinds.groups.iter().enumerate() {
+        if other != number {
+            blacken(&mut room, group, &loaded.scene);
+        }
+    }
+    room
+}
+
+fn blacken(room: &mut Scene, group: &BlindsGroup, open: &Scene) {
+    for number in windows_of(group, open) {
+        room.materials[number].bsdf = Bsdf::Diffuse(Diffuse { reflectance: Rgb::BLACK });
+    }
+}
+
+/// The numbers of the materials that a group changes and that are windows while it is open.
+fn windows_of(group: &BlindsGroup, open: &Scene) -> HashSet<usize> {
+    let changed = group.positions.iter().flat_map(|position| {
+        let pairs = open.materials.iter().zip(&position.room.materials).enumerate();
+        pairs.filter(|(_, (own, other))| own != other).map(|(number, _)| number)
+    });
+    changed.filter(|&number| is_window(&open.materials[number].bsdf)).collect()
+}
+
+/// Sheets that let light straight through, or as a table says; others that let it through are more
+/// often leaves and shades.
+fn is_window(bsdf: &Bsdf) -> bool {
+    match bsdf {
+        Bsdf::Pane(_) | Bsdf::Dielectric(_) => true,
+        Bsdf::Measured(measured) => measured.transmits(),
+        Bsdf::Diffuse(_)
+        | Bsdf::Mirror(_)
+        | Bsdf::Translucent(_)
+        | Bsdf::Conductor(_)
+        | Bsdf::Plastic(_) => false,
+    }
+}
