@@ -3,6 +3,7 @@
 mod annual;
 mod bsdf;
 mod check;
+mod export;
 mod import;
 mod parts;
 mod photometry;
@@ -16,6 +17,7 @@ pub(crate) use annual::{
 };
 pub(crate) use bsdf::{BsdfArguments, Incidence};
 pub(crate) use check::CheckArguments;
+pub(crate) use export::ExportArguments;
 pub(crate) use import::ImportArguments;
 pub(crate) use parts::{
     MergeArguments, PlanArguments, PlannedArguments, ResumeArguments, ShardArguments, WorkArguments,
@@ -82,6 +84,8 @@ pub(crate) enum Command {
     Resume(ResumeArguments),
     /// Write a project file of a Honeybee model
     Import(ImportArguments),
+    /// Write a project as files of another program
+    Export(ExportArguments),
     /// Print the keys of the project file, with what they take and what holds without them
     Keys(KeysArguments),
     /// Print the script with which a shell completes commands, options and names

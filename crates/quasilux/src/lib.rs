@@ -68,6 +68,7 @@ pub fn command_line(words: impl IntoIterator<Item = OsString>) -> Exit {
         Command::Merge(arguments) => commands::merge(&arguments),
         Command::Resume(arguments) => commands::resume(&arguments),
         Command::Import(arguments) => commands::import(&arguments),
+        Command::Export(arguments) => commands::export(&arguments),
         Command::Keys(arguments) => commands::keys(&arguments),
         Command::Completions(arguments) => commands::completions(&arguments),
         Command::Man(arguments) => commands::man(&arguments),

@@ -6,6 +6,7 @@ mod bad_input;
 mod blinds;
 mod cameras;
 mod corpus;
+mod export;
 mod glazing;
 mod gltf;
 mod honeybee;
