@@ -38,6 +38,7 @@ pub use environment::{Environment, Opening, SkyFacts, SkyModel, Sun};
 pub use error::{LoadError, Spanned, Warning};
 pub use export::{Exported, ExportedFile, export_radiance};
 pub use files::{FileKind, Files, TriangleArrays, too_large};
+pub use geometry::ifc_advice;
 pub use glam::DVec3;
 pub use import::{ImportTerms, Imported, ImportedFile, import_honeybee};
 pub use light::Light;

@@ -8,13 +8,19 @@ use xtask::workspace::Failure;
 const CALLS: [&str; 2] = ["cargo run --release -- ", "quasilux "];
 
 /// Commands that are not run here, by how they begin, and the documents where they are not.
-const LEFT_OUT: [LeftOut; 13] = [
+const LEFT_OUT: [LeftOut; 16] = [
     LeftOut::anywhere("cargo xtask ", "what runs the commands of the documents"),
     LeftOut::anywhere("cargo test ", "`cargo xtask test tests` runs all tests"),
     LeftOut::anywhere("cargo install ", "installs what has been published"),
     LeftOut::anywhere("cargo run --release -p ", "benchmarks: minutes, and times of one machine"),
     LeftOut::anywhere("cargo run --release -- experiment coverage", "an hour"),
     LeftOut::anywhere("python3 benches/peers/", "needs other programs"),
+    LeftOut::anywhere("pip install ", "installs what has been published"),
+    LeftOut::anywhere(
+        "python -m quasilux.ifc ",
+        "`tests/test_ifc_files.py` of the package runs it",
+    ),
+    LeftOut::anywhere("quasilux check office.toml", "the project of a model of the reader"),
     LeftOut::anywhere("rtrace ", "a program of Radiance"),
     LeftOut::anywhere("sh local.sh ", "`cargo xtask test examples` does the same"),
     LeftOut::anywhere("shards=$(sbatch ", "needs a cluster"),

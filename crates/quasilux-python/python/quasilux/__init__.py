@@ -13,7 +13,8 @@
 208.3 lx
 
 Submodules: `quasilux.qmc` (point sets), `quasilux.photometry` (luminaires), `quasilux.bsdf`
-(measured surfaces), `quasilux.sky` (skies and the sun), `quasilux.ray` (simulations on a cluster).
+(measured surfaces), `quasilux.sky` (skies and the sun), `quasilux.ray` (simulations on a cluster),
+`quasilux.ifc` (models of buildings).
 """
 
 from __future__ import annotations
@@ -26,7 +27,7 @@ from quasilux import _native
 from quasilux._native import InputError, Progress, YearProgress
 
 if TYPE_CHECKING:
-    from quasilux import bsdf, photometry, qmc, ray, sky
+    from quasilux import bsdf, ifc, photometry, qmc, ray, sky
     from quasilux._annual import annual
     from quasilux._camera_result import CameraResult
     from quasilux._caveat import Caveat
@@ -68,6 +69,7 @@ __all__ = [
     "__version__",
     "annual",
     "bsdf",
+    "ifc",
     "load",
     "photometry",
     "qmc",
@@ -101,7 +103,7 @@ _HOMES = {
     "resume": "_simulation",
     "simulate": "_simulation",
 }
-_SUBMODULES = frozenset({"bsdf", "photometry", "qmc", "ray", "sky"})
+_SUBMODULES = frozenset({"bsdf", "ifc", "photometry", "qmc", "ray", "sky"})
 
 
 def __getattr__(name: str) -> Any:

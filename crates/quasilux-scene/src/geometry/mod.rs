@@ -9,6 +9,7 @@ mod copies;
 mod corner_grid;
 mod cut;
 mod data_uri;
+mod elsewhere;
 mod gltf;
 mod gltf_accessor;
 mod gltf_buffers;
@@ -24,6 +25,7 @@ mod polygon;
 use crate::project::{Project, UpAxis};
 use crate::{Bsdf, FileKind, Files, LoadError, Mesh, Rgb, Spanned, Warning, files as reading};
 use builder::MeshBuilder;
+pub use elsewhere::ifc_advice;
 use glam::DVec3;
 pub(crate) use honeybee::look_over;
 use std::sync::Arc;
@@ -120,12 +122,10 @@ pub(crate) fn read(
             continue;
         }
         let format = GeometryFormat::of_name(&file.value).ok_or_else(|| {
-            let message = format!(
-                "\"{}\" is no geometry file; expected a name that ends in .obj, .gltf, .glb \
-                 or .hbjson",
-                file.value
-            );
-            project.error(file.place, message)
+            let other =
+                "no geometry file; expected a name that ends in .obj, .gltf, .glb or .hbjson";
+            let what = ifc_advice(&file.value).unwrap_or_else(|| other.to_owned());
+            project.error(file.place, format!("\"{}\" is {what}", file.value))
         })?;
         let bytes = read_file(project, file, files, format.kind())?;
         quasilux_text::refuse_web_page(&bytes).map_err(|error| {

@@ -7,14 +7,15 @@ use crate::print::tell;
 use crate::project::Project;
 use crate::results;
 use crate::source::{Source, folder_of, import as import_model, is_model};
-use quasilux_scene::{Imported, ImportedFile, Warning};
+use quasilux_scene::{Imported, ImportedFile, Warning, ifc_advice};
 use std::path::Path;
 
 /// Writes the project and what it names, and says what of the model is not in it.
 pub(crate) fn import(arguments: &ImportArguments) -> Result<Exit, CliError> {
     let ImportArguments { model, out, weather } = arguments;
     if !is_model(model) {
-        let message = "no model that can be read; expected a name that ends in .hbjson";
+        let other = "no model that can be read; expected a name that ends in .hbjson";
+        let message = ifc_advice(&model.to_string_lossy()).unwrap_or_else(|| other.to_owned());
         return Err(CliError::in_file(model.display(), None, message));
     }
     if out.exists() {

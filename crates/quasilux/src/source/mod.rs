@@ -14,7 +14,7 @@ pub(crate) use model::{folder_of, import, is_model};
 use crate::digest::{SceneFile, SceneIdentity, sha256_hex};
 use crate::exit::CliError;
 use crate::input;
-use quasilux_scene::{FileKind, Files, Loaded, TriangleArrays, Warning, load};
+use quasilux_scene::{FileKind, Files, Loaded, TriangleArrays, Warning, ifc_advice, load};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::io;
@@ -84,6 +84,9 @@ impl Source {
     pub(crate) fn at(path: &Path) -> Result<Self, CliError> {
         let name = path.display().to_string();
         let refuse = |what: &dyn std::fmt::Display| CliError::in_file(&name, None, what);
+        if let Some(advice) = ifc_advice(&name) {
+            return Err(refuse(&advice));
+        }
         let source = match bundle::read(path).map_err(|error| refuse(&error))? {
             Some(bytes) => bundle::unpacked(&bytes).map_err(|what| refuse(&what))?,
             None if is_model(path) => return Self::of_model(path, None),

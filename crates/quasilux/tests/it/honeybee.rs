@@ -237,6 +237,11 @@ fn import_writes_all_or_nothing() {
     assert!(code == Some(2) && told.contains("p-lamp.ies: is there already"), "{told}");
     assert_eq!(folder.read("p-lamp.ies"), "mine");
     assert!(!folder.path("p.toml").exists());
+    // IFC models are for the Python package.
+    folder.write("model.ifc", "ISO-10303-21;\n");
+    for told in [import("model.ifc", "i.toml").1, folder.quasilux(&["run", "model.ifc"]).stderr] {
+        assert!(told.contains("python -m quasilux.ifc"), "{told}");
+    }
     let mut odd = with_lamp();
     odd["rooms"][0]["faces"][0]["properties"] =
         json!({"radiance": {"modifier": {"type": "Ashik2", "identifier": "odd"}}});

@@ -17,6 +17,10 @@ fn geometry_files() {
                 .replace("room.obj", "room.stl")
                 .file("room.stl", "solid\nendsolid\n")
                 .says(&["project.toml:2:13:", ".gltf"]),
+            Case::new("an IFC model")
+                .replace("room.obj", "room.ifc")
+                .file("room.ifc", "ISO-10303-21;\n")
+                .says(&["project.toml:2:13:", "python -m quasilux.ifc \"room.ifc\""]),
             Case::new("twice")
                 .replace("[\"room.obj\"]", "[\"room.obj\", \"room.obj\"]")
                 .says(&["project.toml:2:25:", "twice"]),
