@@ -177,7 +177,9 @@ def test_the_program_names_the_command_of_python(tmp_path: Path) -> None:
     for words in (["import", path, "--out", tmp_path / "a.toml"], ["run", path], ["check", path]):
         said = refused(*words)
         assert "python -m quasilux.ifc" in said, said
-    (tmp_path / "p.toml").write_text('[scene]\ngeometry = ["model.ifc"]\n')
+    light = '[[lights]]\nkind = "point"\nposition = [0, 0, 2]\nintensity_cd = 100\n'
+    sensor = '[[sensors]]\nname = "s"\nkind = "points"\npoints = [[0, 0, 1]]\nnormals = [[0, 0, 1]]\n'
+    (tmp_path / "p.toml").write_text(f'[scene]\ngeometry = ["model.ifc"]\n{light}{sensor}')
     assert "python -m quasilux.ifc" in refused("check", tmp_path / "p.toml")
 
 
