@@ -134,16 +134,21 @@ pub(crate) fn annual_settings(
     Ok(settings)
 }
 
+/// Refuses projects of a whole year.
+pub(crate) fn expect_a_time(project: &Project) -> Result<(), CliError> {
+    if project.loaded.sky.as_ref().is_some_and(SkyFacts::lacks_time) {
+        let message = "no time says which interval of the weather file the sky is of; set time in \
+                       [sun], such as 2026-03-20T12:30:00 (`quasilux annual` computes the year)";
+        return Err(CliError::in_file(&project.name, None, message));
+    }
+    Ok(())
+}
+
 /// Refuses projects of a whole year, and those in which nothing shines.
 fn expect_light(project: &Project) -> Result<(), CliError> {
-    let Loaded { scene, sky, .. } = &project.loaded;
+    expect_a_time(project)?;
+    let scene = &project.loaded.scene;
     let refuse = |message: &str| Err(CliError::in_file(&project.name, None, message));
-    if sky.as_ref().is_some_and(SkyFacts::lacks_time) {
-        return refuse(
-            "no time says which interval of the weather file the sky is of; set time in [sun], \
-             such as 2026-03-20T12:30:00 (`quasilux annual` computes the year)",
-        );
-    }
     let is_dark_outside = scene.environment.as_ref().is_some_and(Environment::is_dark);
     if is_dark_outside && scene.flux_lm() <= 0.0 {
         return refuse("nothing shines: the sky is dark, and no lamp gives any flux");

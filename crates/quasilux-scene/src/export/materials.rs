@@ -15,11 +15,14 @@ pub(super) fn write(
     names: &mut Identifiers,
     exported: &mut Exported,
 ) -> Result<Vec<String>, String> {
+    let mut is_used = vec![false; scene.materials.len()];
+    scene.mesh.material_of.iter().for_each(|material| is_used[*material as usize] = true);
+    let has_lamps = !scene.lights.is_empty();
     let mut identifiers = Vec::new();
-    for (number, material) in scene.materials.iter().enumerate() {
+    for (material, is_used) in scene.materials.iter().zip(is_used) {
         let identifier = names.near(&material.name);
-        if scene.mesh.material_of.contains(&(number as u32)) {
-            add(material, &identifier, words, exported)?;
+        if is_used {
+            add(material, &identifier, has_lamps, words, exported)?;
             if !material.bsdf.is_grey() {
                 exported.note(
                     "colours: Radiance weighs channels by 0.265, 0.670 and 0.065, quasilux by \
@@ -35,6 +38,7 @@ pub(super) fn write(
 fn add(
     material: &Material,
     name: &str,
+    has_lamps: bool,
     words: &mut Words,
     exported: &mut Exported,
 ) -> Result<(), String> {
@@ -50,23 +54,17 @@ fn add(
             }
             of("trans", &with(colour, &[0.0, 0.0, share, 0.0]));
         }
-        Bsdf::Dielectric(body) => of("dielectric", &[1.0, 1.0, 1.0, body.eta, 0.0]),
+        Bsdf::Dielectric(body) => {
+            if has_lamps {
+                near("light of lamps through clear bodies is not found there, but that of the sky");
+            }
+            of("dielectric", &[1.0, 1.0, 1.0, body.eta, 0.0]);
+        }
         Bsdf::Pane(pane) => {
-            let (transmittance, eta) = match pane {
-                Pane::Clear { eta } => (Rgb::grey(Pane::clear_transmittance(*eta)), *eta),
-                Pane::Tinted { eta, transmittance } => {
-                    near("glass absorbs more of slant light there");
-                    (*transmittance, *eta)
-                }
-                Pane::Measured { transmittance, .. } => {
-                    near(
-                        "glass of its transmittance at normal incidence stands for measured angles",
-                    );
-                    (Rgb::grey(AngularTable::at_angle(transmittance, 0.0)), GLASS_ETA)
-                }
-            };
-            let through = Rgb(transmittance.0.map(|share| transmissivity(share, eta)));
-            of("glass", &with(through, &[eta]));
+            if let Some(what) = nearness(pane) {
+                near(what);
+            }
+            of("glass", &glass(pane));
         }
         Bsdf::Conductor(metal) => {
             near("roughness of GGX is taken for that of Ward");
@@ -85,6 +83,29 @@ fn add(
         }
     }
     Ok(())
+}
+
+/// Differences of Radiance's glass from a pane, in words.
+fn nearness(pane: &Pane) -> Option<&'static str> {
+    match pane {
+        Pane::Clear { .. } => None,
+        Pane::Tinted { .. } => Some("glass absorbs more of slant light there"),
+        Pane::Measured { .. } => {
+            Some("glass of its transmittance at normal incidence stands for measured angles")
+        }
+    }
+}
+
+/// Transmissivities and index of the glass of the same transmittance at normal incidence.
+fn glass(pane: &Pane) -> Vec<f64> {
+    let (transmittance, eta) = match pane {
+        Pane::Clear { eta } => (Rgb::grey(Pane::clear_transmittance(*eta)), *eta),
+        Pane::Tinted { eta, transmittance } => (*transmittance, *eta),
+        Pane::Measured { transmittance, .. } => {
+            (Rgb::grey(AngularTable::at_angle(transmittance, 0.0)), GLASS_ETA)
+        }
+    };
+    with(Rgb(transmittance.0.map(|share| transmissivity(share, eta))), &[eta])
 }
 
 fn with(colour: Rgb, more: &[f64]) -> Vec<f64> {

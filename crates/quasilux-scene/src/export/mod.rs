@@ -5,7 +5,9 @@ mod luminaires;
 mod materials;
 mod outside;
 mod sensors;
+mod shapes;
 mod surfaces;
+mod webs;
 mod words;
 
 use crate::{Light, Scene};
@@ -35,11 +37,12 @@ pub struct ExportedFile {
 
 /// Commands that compile and measure what the files say.
 const COMMANDS: &str = "\
-# Illuminances in lx of NAME.pts, a line a point; more -ad and repeated runs tell how sure they are:
+# RAYPATH has to name this folder (.) and Radiance's lib. Illuminances in lx of NAME.pts, a line a
+# point; more -ad and repeated runs tell how sure they are:
 oconv scene.rad > scene.oct
-rtrace -h -I+ -ab 8 -aa 0 -ad 4096 -lr -10 -lw 1e-5 -ds 0.02 -dc 1 -dt 0 scene.oct < NAME.pts |
+rtrace -h -I+ -ab 8 -aa 0 -ad 4096 -lr -10 -lw 1e-5 -ds 0.02 -dc 1 -dt 0 scene.oct < \"NAME.pts\" |
     rcalc -e '$1 = 179 * (0.265 * $1 + 0.670 * $2 + 0.065 * $3)'
-# Pictures: rpict -vf NAME.vf scene.oct > NAME.hdr
+# Pictures: rpict -vf \"NAME.vf\" -x WIDTH -y HEIGHT scene.oct > \"NAME.hdr\"
 ";
 
 /// A scene for Radiance: `scene.rad`, which `oconv` compiles, with data and function files; points

@@ -14,6 +14,10 @@ const AROUND_STEPS: u32 = 720;
 
 /// Writes what shines from outside.
 pub(super) fn write(environment: &Environment, words: &mut Words, exported: &mut Exported) {
+    if environment.is_dark() {
+        exported.note("the sky is dark, and left out; a sky of weather needs `time` of [sun]");
+        return;
+    }
     if let Some(direction) = environment.sun_direction() {
         let radiance = environment.sun_luminance_cd_m2() / LM_PER_W;
         words.of_numbers("void", "light", "solar", &[radiance; 3]);

@@ -1,5 +1,6 @@
 //! Points for rtrace, views for rpict.
 
+use super::words::{list, number};
 use super::{Exported, Scene};
 use crate::{Camera, Quantity, Sensor, SensorShape};
 use std::fmt::Write;
@@ -24,23 +25,24 @@ fn points(sensor: &Sensor) -> String {
     let mut text = String::new();
     for number in 0..sensor.len() {
         let point = sensor.point(number);
-        let ([x, y, z], [dx, dy, dz]) = (point.position.to_array(), point.normal.to_array());
-        writeln!(text, "{x} {y} {z} {dx} {dy} {dz}").expect("strings grow");
+        let (position, normal) = (point.position.to_array(), point.normal.to_array());
+        writeln!(text, "{} {}", list(&position), list(&normal)).expect("strings grow");
     }
     text
 }
 
 /// A perspective view.
 fn view(camera: &Camera) -> String {
-    let [x, y, z] = camera.position.to_array();
-    let [dx, dy, dz] = (camera.target - camera.position).normalize().to_array();
-    let [ux, uy, uz] = camera.up.to_array();
+    let position = list(&camera.position.to_array());
+    let forward = list(&(camera.target - camera.position).normalize().to_array());
+    let up = list(&camera.up.to_array());
     let [width, height] = camera.resolution.map(f64::from);
     let half = libm::tan(0.5 * camera.vertical_fov_rad);
     let across = 2.0 * libm::atan(half * width / height).to_degrees();
     let along = camera.vertical_fov_rad.to_degrees();
     format!(
-        "rvu -vtv -vp {x} {y} {z} -vd {dx} {dy} {dz} -vu {ux} {uy} {uz} -vh {across} -vv {along} \
-         -vo 0 -va 0 -vs 0 -vl 0\n"
+        "rvu -vtv -vp {position} -vd {forward} -vu {up} -vh {} -vv {} -vo 0 -va 0 -vs 0 -vl 0\n",
+        number(across),
+        number(along)
     )
 }

@@ -2,8 +2,11 @@
 
 use super::Scene;
 use super::words::Words;
-use crate::Light;
+use crate::{Bsdf, Light};
 use std::collections::HashSet;
+
+/// How far in m the back of a mirror lies behind its front.
+const BEHIND_M: f64 = 0.0005;
 
 /// Writes all triangles but those of lights, each with the identifier of its material.
 pub(super) fn write(scene: &Scene, materials: &[String], words: &mut Words) {
@@ -15,6 +18,13 @@ pub(super) fn write(scene: &Scene, materials: &[String], words: &mut Words) {
     let mesh = &scene.mesh;
     for triangle in (0..mesh.triangles.len() as u32).filter(|it| !lights.contains(it)) {
         let material = &materials[mesh.material_of[triangle as usize] as usize];
-        words.polygon(material, &format!("t{triangle}"), &mesh.corners(triangle));
+        let (name, corners) = (format!("t{triangle}"), mesh.corners(triangle));
+        words.polygon(material, &name, &corners);
+        if matches!(scene.material(triangle).bsdf, Bsdf::Mirror(_)) {
+            // Mirrors of Radiance have a front alone.
+            let behind = mesh.front_normal(triangle) * -BEHIND_M;
+            let [a, b, c] = corners.map(|corner| corner + behind);
+            words.polygon(material, &format!("{name}b"), &[a, c, b]);
+        }
     }
 }

@@ -5,6 +5,20 @@ use glam::DVec3;
 use std::collections::HashSet;
 use std::fmt::Write;
 
+/// Most characters of a number: Radiance's programs take longer words apart.
+const MAX_DIGITS: usize = 20;
+
+/// A number as all programs of Radiance read it.
+pub(super) fn number(value: f64) -> String {
+    let plain = format!("{value}");
+    if plain.len() <= MAX_DIGITS { plain } else { format!("{value:.10e}") }
+}
+
+/// Numbers with blanks between.
+pub(super) fn list(values: &[f64]) -> String {
+    values.iter().map(|value| number(*value)).collect::<Vec<_>>().join(" ")
+}
+
 /// A scene file so far.
 #[derive(Debug, Default)]
 pub(super) struct Words(pub(super) String);
@@ -32,9 +46,9 @@ impl Words {
         let count = texts.split_whitespace().count();
         write!(text, "{modifier} {kind} {name}\n{count}{texts}\n0\n{}", numbers.len())
             .expect("strings grow");
-        for (number, value) in numbers.iter().enumerate() {
-            let before = if number % 3 == 0 && numbers.len() > 5 { "\n    " } else { " " };
-            write!(text, "{before}{value}").expect("strings grow");
+        for (place, value) in numbers.iter().enumerate() {
+            let before = if place % 3 == 0 && numbers.len() > 5 { "\n    " } else { " " };
+            write!(text, "{before}{}", number(*value)).expect("strings grow");
         }
         text.push('\n');
     }
@@ -72,5 +86,20 @@ impl Identifiers {
             number += 1;
         }
         name
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short_words() {
+        for value in [1.2246467991473532e-16, 1.0 / 3.0, -123_456.789_012_345_67, 0.0, 1e300, 0.8] {
+            let word = number(value);
+            assert!(word.len() <= MAX_DIGITS, "{word}");
+            let read: f64 = word.parse().expect("a number");
+            assert!((read - value).abs() <= 1e-10 * value.abs(), "{word}");
+        }
     }
 }

@@ -86,8 +86,14 @@ fn luminaires_and_skies_are_tables() {
     let pattern = &scene[&light.modifier];
     assert_eq!(pattern.kind, "brightdata");
     assert_eq!(pattern.texts[..5], ["q_point", "web0.dat", "quasilux.cal", "q_gamma", "q_c"]);
-    let web = table(file(&exported, "web0.dat"), [361, 181]);
-    assert!((web[0] - 1000.0).abs() < 1e-3 && web[361 * 181 - 1] == 0.0);
+    // The angles of the file, and where its light ends.
+    let web = file(&exported, "web0.dat").split_whitespace().map(|it| it.parse::<f64>());
+    let web: Vec<f64> = web.map(|it| it.expect("a number")).collect();
+    let (head, values) = web.split_at(13);
+    assert_eq!(head[..5], [2.0, 0.0, 0.0, 4.0, 0.0]);
+    assert!(head[5] == 90.0 && (90.0..90.001).contains(&head[6]) && head[7] == 180.0, "{head:?}");
+    assert_eq!(head[8..], [0.0, 0.0, 2.0, 0.0, 360.0]);
+    assert_eq!(values, [1000.0, 1000.0, 1000.0, 1000.0, 0.0, 0.0, 0.0, 0.0]);
     // Horizontal illuminance of the table, by the mean of each cell.
     let sky = table(file(&exported, "sky.dat"), [181, 721]);
     let mut lx = 0.0;

@@ -40,11 +40,8 @@ pub(crate) fn annual(arguments: &AnnualArguments) -> Result<Exit, CliError> {
     let points = points(arguments, year.points())?;
     let folder = arguments.output.out.clone().unwrap_or_else(|| Folder::by_name(file));
     if let Some(neighbours) = &arguments.honeybee {
-        let exit = for_honeybee(&year, &folder, neighbours, &arguments.output)?;
-        if exit != Exit::Interrupted && is_model(file) {
-            honeybee::copy_model(file, neighbours)?;
-        }
-        return Ok(exit);
+        let model = is_model(file).then_some(file.as_path());
+        return for_honeybee(&year, Folders { own: &folder, neighbours, model }, &arguments.output);
     }
     let Some(path) = &arguments.checkpoint else {
         return year.deliver(&folder, &arguments.output, |sink| {
@@ -73,21 +70,32 @@ pub(crate) fn annual(arguments: &AnnualArguments) -> Result<Exit, CliError> {
     })
 }
 
+/// Where a year is written, and the model that it is of.
+#[derive(Clone, Copy)]
+struct Folders<'f> {
+    own: &'f Path,
+    neighbours: &'f Path,
+    model: Option<&'f Path>,
+}
+
 /// Simulates a year, and writes it to Honeybee's folder, too.
 fn for_honeybee(
     year: &Year<'_>,
-    folder: &Path,
-    neighbours: &Path,
+    folders: Folders<'_>,
     output: &OutputArguments,
 ) -> Result<Exit, CliError> {
+    let Folders { own, neighbours, model } = folders;
+    if own == neighbours {
+        return Err(CliError::new("--out and --honeybee: expected two folders"));
+    }
     let mut honeybee = HoneybeeFolder::begin(neighbours, year)?;
-    let exit = year.deliver(folder, output, |sink| {
+    let exit = year.deliver(own, output, |sink| {
         year.simulate(0..year.points(), &mut |block| {
             honeybee.take(&block)?;
             sink.take(&block)
         })
     })?;
-    let is_complete = exit != Exit::Interrupted && honeybee.end()?;
+    let is_complete = exit != Exit::Interrupted && honeybee.end(model)?;
     if is_complete && !(output.quiet || output.json) {
         print(&format!("results for Honeybee in {}\n", neighbours.display()))?;
     }

@@ -16,7 +16,7 @@ pub(super) struct Clock {
     pub(super) sun_up_h: Vec<f64>,
     /// Their numbers in the weather file.
     pub(super) sun_up: Vec<usize>,
-    /// How many hours are left out: those of 29 February.
+    /// How many intervals are left out: those of 29 February.
     pub(super) left_out: usize,
 }
 
@@ -51,7 +51,7 @@ impl Clock {
         let day = DAYS_BEFORE[interval.month as usize - 1] + interval.day - 1;
         let middle_h = f64::from(24 * day) + interval.middle_h;
         let parts = f64::from(self.timestep);
-        let begin_h = ((middle_h - 0.5 * interval_h) * parts).round() / parts;
+        let begin_h = ((middle_h - 0.5 * interval_h) * parts + 1e-6).floor().max(0.0) / parts;
         self.study_h.push(begin_h);
         if interval.sky.is_some() {
             self.sun_up_h.push(if self.timestep == 1 { begin_h + 0.5 } else { begin_h });

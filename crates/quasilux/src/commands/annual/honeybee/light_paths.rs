@@ -96,13 +96,21 @@ fn blacken(room: &mut Scene, group: &BlindsGroup, open: &Scene) {
     }
 }
 
-/// The numbers of the materials that a group changes and that are windows while it is open.
+/// The numbers of the materials that a group changes, or that a model has for it alone, and that
+/// are windows while it is open.
 fn windows_of(group: &BlindsGroup, open: &Scene) -> HashSet<usize> {
+    let own = format!("group {}", group.name);
+    let is_own = |name: &str| {
+        let rest = name.strip_prefix(&own).map(|rest| rest.strip_prefix(' ').unwrap_or(rest));
+        rest.is_some_and(|rest| rest.chars().all(|c| c.is_ascii_digit()))
+    };
+    let named = open.materials.iter().enumerate();
+    let named = named.filter(|(_, material)| is_own(&material.name)).map(|(number, _)| number);
     let changed = group.positions.iter().flat_map(|position| {
         let pairs = open.materials.iter().zip(&position.room.materials).enumerate();
         pairs.filter(|(_, (own, other))| own != other).map(|(number, _)| number)
     });
-    changed.filter(|&number| is_window(&open.materials[number].bsdf)).collect()
+    changed.chain(named).filter(|&number| is_window(&open.materials[number].bsdf)).collect()
 }
 
 /// Sheets that let light straight through, or as a table says; others that let it through are more

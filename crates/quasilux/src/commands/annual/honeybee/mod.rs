@@ -23,12 +23,14 @@ use arrays::{ArrayReader, ArrayWriter};
 use clock::Clock;
 use light_paths::{LightPath, LightPaths, STATIC, STATIC_STATE, light_paths, without_groups};
 use metrics::Metrics;
+use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Where the results are until all of them are there.
-const UNFINISHED: &str = "results.unfinished";
+/// Where everything is until all of it is there.
+const UNFINISHED: &str = "unfinished";
 const RESULTS: &str = "results";
+const METRICS: &str = "metrics";
 
 /// A folder that a year is written to while it goes.
 pub(super) struct HoneybeeFolder<'y> {
@@ -51,18 +53,15 @@ impl<'y> HoneybeeFolder<'y> {
         let LightPaths { paths, others } = light_paths(&project.loaded).map_err(refuse)?;
         warn(folder, &clock, &others);
         let claim = results::claim(folder)?;
-        let (results, unfinished) = (folder.join(RESULTS), folder.join(UNFINISHED));
-        if results.exists() {
-            let message = "is there already; remove it or name another folder by --honeybee";
-            return Err(CliError::in_file(results.display(), None, message));
-        }
+        expect_empty(folder)?;
+        let unfinished = folder.join(UNFINISHED);
         if unfinished.exists() {
             // Of a run that was killed: no other one is at this folder.
             fs::remove_dir_all(&unfinished)
                 .map_err(|it| results::cannot_write(&unfinished, &it))?;
         }
         let sensors = &project.loaded.scene.sensors;
-        let of_all = unfinished.join(STATIC).join(STATIC_STATE);
+        let of_all = unfinished.join(RESULTS).join(STATIC).join(STATIC_STATE);
         let is_all = project.loaded.blinds.is_none();
         let arrays = is_all.then(|| ArrayWriter::begin(&of_all, sensors, &clock));
         Ok(Self {
@@ -87,26 +86,38 @@ impl<'y> HoneybeeFolder<'y> {
         Ok(())
     }
 
-    /// Simulates the light paths that are left, and puts everything in its place; says whether
-    /// that came to its end.
-    pub(super) fn end(mut self) -> Result<bool, CliError> {
+    /// Simulates the light paths that are left, and puts everything in its place, with the model
+    /// that it is of; says whether that came to its end.
+    pub(super) fn end(mut self, model: Option<&Path>) -> Result<bool, CliError> {
         if let Some(arrays) = self.arrays.take() {
             arrays.end()?;
         } else if !self.by_light_paths()? {
             return Ok(false);
         }
         let unfinished = self.folder.join(UNFINISHED);
-        let sensors = &self.year.project().loaded.scene.sensors;
-        documents::write(&unfinished, sensors, &self.paths, &self.clock)?;
-        let results = self.folder.join(RESULTS);
-        fs::rename(&unfinished, &results).map_err(|it| results::cannot_write(&results, &it))?;
-        self.metrics.write(&self.folder.join("metrics"))?;
+        documents::write(&unfinished.join(RESULTS), self.sensors(), &self.paths, &self.clock)?;
+        self.metrics.write(&unfinished.join(METRICS))?;
+        let mut parts: Vec<OsString> = vec![METRICS.into()];
+        if let Some((model, name)) = model.and_then(|it| Some((it, it.file_name()?))) {
+            let bytes = fs::read(model).map_err(|error| results::cannot_read(model, &error))?;
+            results::write_atomic(&unfinished.join(name), &bytes)?;
+            parts.push(name.to_owned());
+        }
+        // Whoever looks for the results finds all of it.
+        parts.push(RESULTS.into());
+        for part in parts {
+            let place = self.folder.join(&part);
+            let moved = fs::rename(unfinished.join(&part), &place);
+            moved.map_err(|error| results::cannot_write(&place, &error))?;
+        }
+        _ = fs::remove_dir(&unfinished);
         Ok(true)
     }
 
     /// Simulates what comes by none of the groups, and each state of each group without that.
     fn by_light_paths(&self) -> Result<bool, CliError> {
-        let of_static = self.folder.join(UNFINISHED).join(STATIC).join(STATIC_STATE);
+        let results = self.folder.join(UNFINISHED).join(RESULTS);
+        let of_static = results.join(STATIC).join(STATIC_STATE);
         let room = without_groups(&self.year.project().loaded);
         let writer = self.writer(&of_static)?;
         if !self.fill(writer, &room)? {
@@ -114,7 +125,7 @@ impl<'y> HoneybeeFolder<'y> {
         }
         for path in &self.paths {
             for state in &path.states {
-                let folder = self.folder.join(UNFINISHED).join(&path.name).join(&state.name);
+                let folder = results.join(&path.name).join(&state.name);
                 let beside = ArrayReader::open(&of_static, self.sensors(), &self.clock);
                 let writer = self.writer(&folder)?.without(beside);
                 if !self.fill(writer, &state.room)? {
@@ -149,11 +160,18 @@ impl<'y> HoneybeeFolder<'y> {
     }
 }
 
-/// Puts the model beside the results, where areas of grids are looked for.
-pub(super) fn copy_model(model: &Path, folder: &Path) -> Result<(), CliError> {
-    let Some(name) = model.file_name() else { return Ok(()) };
-    let bytes = fs::read(model).map_err(|error| results::cannot_read(model, &error))?;
-    results::write_atomic(&folder.join(name), &bytes)
+/// Refuses a folder that has results, or a model that areas of grids would be taken from.
+fn expect_empty(folder: &Path) -> Result<(), CliError> {
+    let entries = fs::read_dir(folder).map_err(|error| results::cannot_read(folder, &error))?;
+    for path in entries.filter_map(Result::ok).map(|entry| entry.path()) {
+        let is_model = path.extension().is_some_and(|it| it == "hbjson" || it == "hbpkl");
+        let is_ours = [RESULTS, METRICS].iter().any(|name| path.file_name() == Some(name.as_ref()));
+        if is_model || is_ours {
+            let message = "is there already; remove it or name another folder by --honeybee";
+            return Err(CliError::in_file(path.display(), None, message));
+        }
+    }
+    Ok(())
 }
 
 /// Tells what of a year is not in the folder.
@@ -161,8 +179,15 @@ fn warn(folder: &Path, clock: &Clock, others: &[String]) {
     let folder = folder.display();
     if clock.left_out > 0 {
         tell(format_args!(
-            "warning: {folder}: {} hours are left out: Honeybee's year has no 29 February",
+            "warning: {folder}: {} intervals are left out: Honeybee's year has no 29 February",
             clock.left_out
+        ));
+    }
+    if clock.timestep > 1 {
+        tell(format_args!(
+            "warning: {folder}: {} intervals an hour, of which honeybee-radiance-postprocess takes \
+             schedules of hours amiss; give it a weather file of hours",
+            clock.timestep
         ));
     }
     for name in others {
