@@ -270,12 +270,66 @@ def test_double_panes_are_one_sheet_and_rods_are_none() -> None:
 
     panes = np.concatenate([box((1, 0.004, 2), (0, 0, 0)), box((1, 0.004, 2), (0, 0.02, 0))])
     sheets = _glass.sheets_of(panes)
-    assert (len(sheets.flat), sheets.merged, len(sheets.solid)) == (1, 1, 0)
-    assert area_m2(sheets.flat[0]) == pytest.approx(2.0)
+    assert (len(sheets.flat), len(sheets.solid)) == (2, 0)
+    assert area_m2(sheets.flat[0].corners) == pytest.approx(2.0)
+    assert _glass.is_behind(*sheets.flat)
     beside = np.concatenate([box((1, 0.004, 2), (0, 0, 0)), box((1, 0.004, 2), (1.1, 0, 0))])
-    assert len(_glass.sheets_of(beside).flat) == 2
+    assert not _glass.is_behind(*_glass.sheets_of(beside).flat)
     rod = _glass.sheets_of(box((0.05, 0.05, 2), (0, 0, 0)))
     assert (len(rod.flat), len(rod.solid)) == (0, 1)
     # A sheet of a sheet is the sheet.
-    again = _glass.sheets_of(sheets.flat[0])
-    np.testing.assert_allclose(again.flat[0], sheets.flat[0])
+    again = _glass.sheets_of(sheets.flat[0].corners)
+    np.testing.assert_allclose(again.flat[0].corners, sheets.flat[0].corners)
+
+
+def test_workplanes_stay_under_a_roof_and_out_of_furniture(tmp_path: Path) -> None:
+    model = Builder()
+    # An attic 8 m wide and 2 m high in its middle: 0.75 m high from 1.5 m to 6.5 m.
+    points = [model.make("IfcCartesianPoint", [x, z]) for x, z in ((0.0, 0.0), (8.0, 0.0), (4.0, 2.0))]
+    profile = model.make(
+        "IfcArbitraryClosedProfileDef", "AREA", None, model.make("IfcPolyline", [*points, points[0]])
+    )
+    axes = model.axes((0, 6, 0), z=(0, -1, 0), x=(1, 0, 0))
+    along = model.make("IfcDirection", [0.0, 0.0, 1.0])
+    attic = model.root("IfcSpace", "Attic")
+    model.placed(attic, (0, 0, 0))
+    model.relate("IfcRelAggregates", model.storey, [attic])
+    model.shaped(attic, [model.make("IfcExtrudedAreaSolid", profile, axes, along, 6.0)])
+    model.element("IfcSlab", "Floor", [model.box((8, 6, 0.2), (0, 0, -0.2))])
+    # A room with a desk that is higher than the workplane.
+    model.space("Desk", (4, 3, 2.5), (20, 0, 0))
+    model.element("IfcFurnishingElement", "Desk", [model.box((1.6, 0.8, 0.78), (21, 1, 0))])
+    # The same room without one.
+    model.space("Free", (4, 3, 2.5), (30, 0, 0))
+    imported = load(model, tmp_path)
+    under_roof, with_desk, free = imported.sensors
+    x = np.array(under_roof["points"])[:, 0]
+    assert x.min() >= 1.5 and x.max() <= 6.5 and len(x) > 20
+    at = np.array(with_desk["points"])
+    on_desk = ((at[:, :2] > [21, 1]) & (at[:, :2] < [22.6, 1.8])).all(axis=1)
+    assert len(at) > 20 and not on_desk.any()
+    assert free["kind"] == "grid"
+    (outside,) = found(imported, "points of the workplane outside the space are left out")
+    assert "Attic" in outside.places[0] and outside.count == 1
+    (inside,) = found(imported, "points of the workplane inside bodies are left out")
+    assert "Desk" in inside.places[0] and inside.count == 1
+
+
+def test_a_sloping_floor_is_told(tmp_path: Path) -> None:
+    model = Builder()
+    points = [(0.0, 0.0), (8.0, 1.0), (8.0, 4.0), (0.0, 4.0)]
+    line = [model.make("IfcCartesianPoint", list(point)) for point in points]
+    profile = model.make(
+        "IfcArbitraryClosedProfileDef", "AREA", None, model.make("IfcPolyline", [*line, line[0]])
+    )
+    axes = model.axes((0, 6, 0), z=(0, -1, 0), x=(1, 0, 0))
+    along = model.make("IfcDirection", [0.0, 0.0, 1.0])
+    hall = model.root("IfcSpace", "Hall")
+    model.placed(hall, (0, 0, 0))
+    model.relate("IfcRelAggregates", model.storey, [hall])
+    model.shaped(hall, [model.make("IfcExtrudedAreaSolid", profile, axes, along, 6.0)])
+    model.element("IfcSlab", "Roof", [model.box((8, 6, 0.2), (0, 0, 4))])
+    imported = load(model, tmp_path)
+    assert found(imported, "the floor is not level")
+    # The floor is as high as the workplane at x = 6 m.
+    assert max(point[0] for point in imported.sensors[0]["points"]) <= 6.0

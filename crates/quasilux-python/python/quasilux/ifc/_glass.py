@@ -12,6 +12,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from quasilux.ifc._solids import body_of
+
 if TYPE_CHECKING:
     from quasilux.ifc._geometry import Floats
 
@@ -22,7 +24,10 @@ _SAME_GLAZING_M = 0.12
 # Share of the surface of a pane that its two faces have at least.
 _LEAST_SHARE = 0.6
 _ALIGNED = 0.9995
-_WELD_M = 1e-6
+# Facets and panes nearer than this, in m, lie in one plane.
+_SAME_PLANE_M = 1e-3
+# Bodies with more planes than panes with spacers have are left as they are.
+_MOST_LAYERS = 32
 
 
 @dataclass
@@ -31,21 +36,20 @@ class Sheets:
 
     Attributes
     ----------
-    flat : list of ndarray
-        Corners of the triangles of each sheet, of shape (n, 3, 3), in m.
+    flat : list of Sheet
+        Flat panes.
     solid : list of ndarray
         Bodies that are no panes, unchanged.
-    merged : int
-        Panes that lie before another one of the same glazing, and are left out.
     """
 
-    flat: list[Floats]
+    flat: list[Sheet]
     solid: list[Floats]
-    merged: int = 0
 
 
 @dataclass
-class _Sheet:
+class Sheet:
+    """A flat pane: its triangles, of shape (n, 3, 3) in m, and the plane that they lie in."""
+
     corners: Floats
     normal: Floats
     offset_m: float
@@ -53,41 +57,23 @@ class _Sheet:
 
 def sheets_of(corners: Floats, *, thickness_m: float = MOST_THICKNESS_M) -> Sheets:
     """Return the panes of a part, of shape (n, 3, 3), as sheets."""
-    found: list[_Sheet] = []
     result = Sheets([], [])
     for body in bodies_of(corners):
         sheet = _sheet(body, thickness_m)
         if sheet is None:
             result.solid.append(body)
-        elif any(_is_before(sheet, other) for other in found):
-            result.merged += 1
         else:
-            found.append(sheet)
-    result.flat = [sheet.corners for sheet in found]
+            result.flat.append(sheet)
     return result
 
 
 def bodies_of(corners: Floats) -> list[Floats]:
-    """Return the triangles of each body by itself: bodies share no corners."""
-    keys = np.round(corners.reshape(-1, 3) / _WELD_M).astype(np.int64)
-    _, index = np.unique(keys, axis=0, return_inverse=True)
-    triangles = index.reshape(-1, 3)
-    # The lowest number among connected corners, by repeated halving of the way to it.
-    parent = np.arange(triangles.max() + 1)
-    while True:
-        lowest = parent[triangles].min(axis=1)
-        new = parent.copy()
-        for corner in range(3):
-            np.minimum.at(new, triangles[:, corner], lowest)
-        new = new[new]
-        if (new == parent).all():
-            break
-        parent = new
-    body_of = parent[triangles[:, 0]]
-    return [corners[body_of == body] for body in np.unique(body_of)]
+    """Return the triangles of each body by itself."""
+    number = body_of(corners)
+    return [corners[number == body] for body in np.unique(number)]
 
 
-def _sheet(corners: Floats, thickness_m: float) -> _Sheet | None:
+def _sheet(corners: Floats, thickness_m: float) -> Sheet | None:
     cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     twice_m2 = np.linalg.norm(cross, axis=1)
     has_area = twice_m2 > 0
@@ -105,8 +91,28 @@ def _sheet(corners: Floats, thickness_m: float) -> _Sheet | None:
         return None
     shown = corners[front] if twice_m2[front].sum() > 0 else corners[back]
     offset = float((heights.max() + heights.min()) / 2)
+    shown = _foremost(shown, normal)
     moved = shown + (offset - shown @ normal)[..., None] * normal
-    return _Sheet(moved, normal, offset)
+    return Sheet(moved, normal, offset)
+
+
+def _foremost(facets: Floats, normal: Floats) -> Floats:
+    """Facets of one side of a body without those behind others, as in panes with a spacer."""
+    import shapely
+
+    layer = np.round((facets @ normal).mean(axis=1) / _SAME_PLANE_M)
+    layers = sorted(np.unique(layer), reverse=True)
+    if len(layers) == 1 or len(layers) > _MOST_LAYERS:
+        return facets
+    flat = shapely.polygons(facets @ _plane(normal).T)
+    is_kept = np.zeros(len(facets), dtype=bool)
+    covered = shapely.Polygon()
+    for number in layers:
+        here = np.flatnonzero(layer == number)
+        hidden = shapely.area(shapely.intersection(flat[here], covered))
+        is_kept[here] = hidden < 0.5 * shapely.area(flat[here])
+        covered = shapely.union_all([covered, *flat[here]], grid_size=1e-6)
+    return facets[is_kept]
 
 
 def _main_normal(normals: Floats, weights: Floats) -> Floats:
@@ -122,17 +128,24 @@ def _main_normal(normals: Floats, weights: Floats) -> Floats:
     return best if best[largest] > 0 else -best
 
 
-def _is_before(one: _Sheet, other: _Sheet) -> bool:
-    """Whether two panes lie behind one another."""
+def is_behind(one: Sheet, other: Sheet) -> bool:
+    """Whether two panes lie behind one another: most of the smaller is before the larger."""
+    import shapely
+
     if abs(one.normal @ other.normal) < _ALIGNED:
         return False
     center = one.corners.reshape(-1, 3).mean(axis=0)
-    if abs(center @ other.normal - other.offset_m) > _SAME_GLAZING_M:
+    apart = abs(center @ other.normal - other.offset_m)
+    if not _SAME_PLANE_M < apart <= _SAME_GLAZING_M:
         return False
-    plane = np.linalg.svd(other.normal[None, :])[2][1:]
-    first, second = (sheet.corners.reshape(-1, 3) @ plane.T for sheet in (one, other))
-    low = np.maximum(first.min(axis=0), second.min(axis=0))
-    high = np.minimum(first.max(axis=0), second.max(axis=0))
-    shared = np.prod(np.maximum(high - low, 0.0))
-    larger = max(np.prod(np.ptp(points, axis=0)) for points in (first, second))
-    return bool(shared > 0.8 * larger)
+    first, second = (
+        shapely.union_all(shapely.polygons(sheet.corners @ _plane(other.normal).T), grid_size=1e-6)
+        for sheet in (one, other)
+    )
+    shared = shapely.area(shapely.intersection(first, second))
+    return bool(shared > 0.8 * min(shapely.area(first), shapely.area(second)))
+
+
+def _plane(normal: Floats) -> Floats:
+    """Two directions across a normal, of shape (2, 3)."""
+    return np.linalg.svd(normal[None, :])[2][1:]

@@ -18,18 +18,30 @@ _BESIDE_M = np.array([1.2345e-5, 0.7531e-5])
 _AT_ONCE = 4_000_000
 
 
-def inside_bodies(points: Floats, shapes: Iterable[Shape]) -> NDArray[np.bool_]:
-    """Return which points, of shape (n, 3) in m, lie inside one of the shapes."""
-    inside = np.zeros(len(points), dtype=bool)
-    for shape in shapes:
-        low, high = shape.box_m
-        near = np.flatnonzero(((points >= low) & (points <= high)).all(axis=1) & ~inside)
-        if len(near):
-            inside[near] = _is_inside(points[near], shape.corners)
-    return inside
+class Bodies:
+    """Shapes that points may lie inside of."""
+
+    def __init__(self, shapes: Iterable[Shape]) -> None:
+        self._shapes = list(shapes)
+        self._boxes = np.array([shape.box_m for shape in self._shapes]).reshape(-1, 2, 3)
+
+    def hold(self, points: Floats) -> NDArray[np.bool_]:
+        """Return which points, of shape (n, 3) in m, lie inside one of the shapes."""
+        inside = np.zeros(len(points), dtype=bool)
+        if not len(points):
+            return inside
+        lowest, highest = points.min(axis=0), points.max(axis=0)
+        may_hold = (self._boxes[:, 1] >= lowest) & (self._boxes[:, 0] <= highest)
+        for number in np.flatnonzero(may_hold.all(axis=1)):
+            low, high = self._boxes[number]
+            near = np.flatnonzero(((points >= low) & (points <= high)).all(axis=1) & ~inside)
+            if len(near):
+                inside[near] = is_inside(points[near], self._shapes[number].corners)
+        return inside
 
 
-def _is_inside(points: Floats, corners: Floats) -> NDArray[np.bool_]:
+def is_inside(points: Floats, corners: Floats) -> NDArray[np.bool_]:
+    """Return which points, of shape (n, 3) in m, lie inside a closed body."""
     a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
     u, v = (b - a)[:, :2], (c - a)[:, :2]
     area = u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]

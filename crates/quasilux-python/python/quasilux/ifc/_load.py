@@ -23,6 +23,7 @@ from quasilux.ifc import (
 )
 from quasilux.ifc._files import FileName, ProjectFiles
 from quasilux.ifc._findings import Findings
+from quasilux.ifc._inside import Bodies
 from quasilux.ifc._imported import GEOMETRY, Imported
 from quasilux.ifc._mapping import Mapping, read_mapping
 
@@ -252,7 +253,7 @@ class _Import:
         self, chosen: list[Space], taken: dict[int, Shape], origin: Floats
     ) -> list[tuple[str, dict[str, Any]]]:
         terms = _workplanes.Terms(
-            self.terms.workplane_m, self.terms.wall_zone_m, origin, list(taken.values())
+            self.terms.workplane_m, self.terms.wall_zone_m, origin, Bodies(taken.values())
         )
         sensors = _workplanes.workplanes(chosen, terms, self.findings)
         if chosen and not sensors:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass, field
@@ -11,6 +12,7 @@ import numpy as np
 
 from quasilux.ifc import _glass, _model
 from quasilux.ifc._geometry import Part, Shape
+from quasilux.ifc._solids import is_closed, outward
 
 if TYPE_CHECKING:
     from quasilux.ifc._findings import Findings
@@ -72,6 +74,8 @@ _ROLES = (
     ("IfcFurnishingElement", "furniture"),
     ("IfcDistributionElement", "equipment"),
 )
+# How coverings that are surfaces without thickness face, by their type.
+_SHEETS = {"CEILING": -1.0, "FLOORING": 1.0}
 # A window that is one body is no thicker.
 _MOST_WINDOW_M = 0.5
 # Cosine to the vertical beyond which a facet is a floor or a ceiling.
@@ -103,7 +107,33 @@ def surfaces_of(shapes: Iterable[Shape], mapping: Mapping, findings: Findings) -
     for shape in shapes:
         maker.add(shape)
     maker.tell_defaults()
+    maker.tell_unused()
     return maker.surfaces
+
+
+@dataclass(frozen=True)
+class _Material:
+    """A material of the project: named by a key of the mapping, or by a default role."""
+
+    name: str
+    keys: dict[str, Any]
+    key: str = ""
+    role: str = ""
+
+
+@dataclass(frozen=True)
+class _Pane:
+    sheet: _glass.Sheet
+    material: _Material
+
+    @property
+    def area_m2(self) -> float:
+        return _area_m2(self.sheet.corners)
+
+    def is_behind(self, other: _Pane) -> bool:
+        """Whether another pane stands for this one: two names of the mapping stay two panes."""
+        is_named_apart = self.material.key and self.material.key != other.material.key
+        return not is_named_apart and _glass.is_behind(self.sheet, other.sheet)
 
 
 class _Maker:
@@ -112,63 +142,86 @@ class _Maker:
         self.findings = findings
         self.surfaces = Surfaces()
         self._key_of: dict[str, str] = {}
+        self._used: set[str] = set()
 
     def add(self, shape: Shape) -> None:
         """Add all parts of a product."""
         product = shape.product
+        if _role(product) == "oriented":
+            shape = outward(shape)
         place = _model.label(product)
         materials = _model.material_names(product)
         parts = _parted(shape, place, materials, self.findings)
+        panes: list[_Pane] = []
         for part, is_glass in parts:
             names = _names(product, part, materials)
             mapped = self.mapping.material(names)
             style = part.style or (materials[0] if len(materials) == 1 else "")
             if mapped is not None:
-                self._add_mapped(place, part.corners, style, mapped)
+                panes += self._add_mapped(place, part.corners, style, mapped)
             elif is_glass:
-                name = self._material(f"glass {style}".strip(), "glass")
-                self._add_sheets(place, part.corners, name)
+                glass = self._default(f"glass {style}".strip(), "glass")
+                panes += self._sheets(place, part.corners, glass)
             else:
                 self._add_default(place, product, part.corners, style)
+        self._add_panes(place, panes)
 
     def _add_mapped(
         self, place: str, corners: Floats, style: str, mapped: tuple[str, dict[str, Any]]
-    ) -> None:
+    ) -> list[_Pane]:
         key, entries = mapped
+        self._used.add(key)
         if entries.get("skip") is True:
             self.findings.note(f'facets of "{key}" are left out, as the mapping says', place)
-            return
-        name = self._named(style or key, key)
-        self.surfaces.materials[name] = dict(entries)
+            return []
+        material = _Material(self._named(style or key, key), dict(entries), key)
         kind = entries.get("kind", "diffuse")
         if kind in ("pane", "glazing", "bsdf") or entries.get("transmittance"):
-            self._add_sheets(place, corners, name)
-        else:
-            self._emit(place, name, corners)
+            return self._sheets(place, corners, material)
+        self._emit(place, material, corners)
+        return []
 
-    def _add_sheets(self, place: str, corners: Floats, name: str) -> None:
+    def _sheets(self, place: str, corners: Floats, material: _Material) -> list[_Pane]:
+        """Flat panes of a part; what is none is emitted."""
         sheets = _glass.sheets_of(corners)
-        for sheet in sheets.flat:
-            self._emit(place, name, sheet)
-        if sheets.merged:
-            note = "panes behind one another are one sheet, whose material stands for all of them"
-            self.findings.note(note, place)
         for body in sheets.solid:
-            solid = self._material(f"{name} body", "glass body")
-            self._emit(place, solid, body)
+            if not is_closed(body):
+                self._emit(place, material, body)
+            elif material.role:
+                solid = self._default(f"{material.name} body", "glass body")
+                self._emit(place, solid, body)
+            else:
+                message = (
+                    f'a body of "{material.name}" that is no thin flat pane keeps its facets: '
+                    "light passes two of them"
+                )
+                self.findings.note(message, place)
+                self._emit(place, material, body)
+        return [_Pane(sheet, material) for sheet in sheets.flat]
+
+    def _add_panes(self, place: str, panes: list[_Pane]) -> None:
+        """Emit panes of a product; of panes behind one another those that the mapping names."""
+        kept: list[_Pane] = []
+        # Larger panes first, and those of the mapping before them.
+        for pane in sorted(panes, key=lambda pane: (bool(pane.material.role), -pane.area_m2)):
+            if any(pane.is_behind(other) for other in kept):
+                note = (
+                    "panes behind one another are one sheet, whose material stands for all of them"
+                )
+                self.findings.note(note, place)
+            else:
+                kept.append(pane)
+        for pane in panes:
+            if any(pane is one for one in kept):
+                self._emit(place, pane.material, pane.sheet.corners)
 
     def _add_default(self, place: str, product: Any, corners: Floats, style: str) -> None:
-        role = next((role for name, role in _ROLES if _model.is_a(product, name)), "other")
-        for which, facets in _by_role(role, corners).items():
-            self._emit(place, self._material(f"{which} {style}".strip(), which), facets)
+        for which, facets in _by_role(product, corners, place, self.findings).items():
+            self._emit(place, self._default(f"{which} {style}".strip(), which), facets)
 
-    def _material(self, name: str, role: str) -> str:
-        """Return the name of a material with the default of what it was taken for."""
-        name = self._named(name, f"default {role}")
-        if name not in self.surfaces.materials:
-            self.surfaces.materials[name] = _default(role)
-            self.surfaces.default_of[name] = role
-        return name
+    def _default(self, name: str, role: str) -> _Material:
+        """Return a material with the default of what it was taken for."""
+        return _Material(self._named(name, f"default {role}"), _default(role), role=role)
 
     def _named(self, name: str, key: str) -> str:
         """Return a name that an OBJ file can hold, and that no other key has."""
@@ -178,8 +231,17 @@ class _Maker:
             candidate, number = f"{plain} {number}", number + 1
         return candidate
 
-    def _emit(self, place: str, material: str, corners: Floats) -> None:
-        self.surfaces.objects.append((obj_name(place), material, corners))
+    def _emit(self, place: str, material: _Material, corners: Floats) -> None:
+        self.surfaces.materials.setdefault(material.name, material.keys)
+        if material.role:
+            self.surfaces.default_of[material.name] = material.role
+        self.surfaces.objects.append((obj_name(place), material.name, corners))
+
+    def tell_unused(self) -> None:
+        """Tell which names of the mapping nothing has."""
+        for key in self.mapping.materials:
+            if key not in self._used:
+                self.findings.note(f'no facet is of "{key}", which the mapping has a material for')
 
     def tell_defaults(self) -> None:
         """Tell which materials have properties that no mapping and no file gave."""
@@ -213,13 +275,28 @@ def _told(role: str) -> str:
     )
 
 
-def _by_role(role: str, corners: Floats) -> dict[str, Floats]:
+def _role(product: Any) -> str:
+    return next((role for name, role in _ROLES if _model.is_a(product, name)), "other")
+
+
+def _by_role(
+    product: Any, corners: Floats, place: str, findings: Findings
+) -> dict[str, Floats]:
     """Facets of slabs and the like by the way they face."""
+    role = _role(product)
     if role != "oriented":
         return {role: corners}
     cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     length = np.linalg.norm(cross, axis=1)
     upward = np.divide(cross[:, 2], length, out=np.zeros(len(length)), where=length > 0)
+    if not (upward > _STEEP).any() or not (upward < -_STEEP).any():
+        # A surface without thickness.
+        side = _SHEETS.get(str(_model.get(product, "PredefinedType")))
+        if side is not None:
+            upward = np.where(np.abs(upward) > _STEEP, side, 0.0)
+        elif (np.abs(upward) > _STEEP).any():
+            message = "a surface without thickness is floor or ceiling by the way it faces"
+            findings.note(message, place)
     masks = {"floor": upward > _STEEP, "ceiling": upward < -_STEEP}
     masks["wall"] = ~(masks["floor"] | masks["ceiling"])
     return {which: corners[mask] for which, mask in masks.items() if mask.any()}
@@ -254,16 +331,17 @@ def _parted(
 ) -> list[tuple[Part, bool]]:
     """Parts of a product, and which are glass; windows that do not tell are parted by shape."""
     parts = [(part, _is_glass(part, materials)) for part in shape.parts]
-    is_window = _model.is_a(shape.product, "IfcWindow")
-    if not is_window or any(is_glass for _, is_glass in parts):
+    if not _model.is_a(shape.product, "IfcWindow"):
         return parts
+    if any(is_glass for _, is_glass in parts):
+        return _one_pane(shape, parts)
     bodies = [(part, body) for part in shape.parts for body in _glass.bodies_of(part.corners)]
     panes = [_is_pane_of(body, shape) for _, body in bodies]
-    whole = _glass.sheets_of(bodies[0][1], thickness_m=_MOST_WINDOW_M).flat
-    if len(bodies) == 1 and whole:
+    whole = _one_pane(shape, [(part, True) for part in shape.parts])
+    if len(bodies) == 1 and whole[0][0] is not shape.parts[0]:
         # One body that fills the opening.
         message = "a window of one body, which no style tells to be glass: all of it is a pane"
-        bodies, panes = [(bodies[0][0], whole[0])], [True]
+        bodies, panes = [(whole[0][0], whole[0][0].corners)], [True]
     elif any(panes):
         message = "no style tells its glass: thin flat bodies that fill most of it are panes"
     else:
@@ -278,6 +356,17 @@ def _parted(
     return found
 
 
+def _one_pane(shape: Shape, parts: list[tuple[Part, bool]]) -> list[tuple[Part, bool]]:
+    """A window of one body of glass, thick as a frame, as a sheet; others as they are."""
+    bodies = _glass.bodies_of(shape.corners)
+    if len(parts) != 1 or len(bodies) != 1:
+        return parts
+    flat = _glass.sheets_of(bodies[0], thickness_m=_MOST_WINDOW_M).flat
+    if not flat:
+        return parts
+    return [(dataclasses.replace(parts[0][0], corners=flat[0].corners), parts[0][1])]
+
+
 def _is_pane_of(body: Floats, shape: Shape) -> bool:
     """Whether a body of a window is flat, thin, and fills a tenth of the window or more."""
     sheets = _glass.sheets_of(body)
@@ -285,12 +374,14 @@ def _is_pane_of(body: Floats, shape: Shape) -> bool:
         return False
     spread = np.ptp(body.reshape(-1, 3), axis=0)
     whole = np.ptp(shape.corners.reshape(-1, 3), axis=0)
-    cross = np.cross(
-        sheets.flat[0][:, 1] - sheets.flat[0][:, 0], sheets.flat[0][:, 2] - sheets.flat[0][:, 0]
-    )
-    area = np.linalg.norm(cross, axis=1).sum() / 2
     across = np.sort(whole)[1:].prod()
+    area = _area_m2(sheets.flat[0].corners)
     return bool(area > 0.1 * across and np.sort(spread)[1] > 0.1)
+
+
+def _area_m2(corners: Floats) -> float:
+    cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    return float(np.linalg.norm(cross, axis=1).sum() / 2)
 
 
 def obj_name(name: str) -> str:

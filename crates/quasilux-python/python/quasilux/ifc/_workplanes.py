@@ -1,7 +1,8 @@
 """Workplanes: a sensor in each space, at a height above its floor, within a wall zone.
 
 A rectangular space gets a grid by the rule of EN 12464-1 that project files have. In other spaces
-the points of that grid that lie inside, a wall zone from all walls, are taken.
+the points of that grid that lie inside, a wall zone from all walls, are taken. Points outside the
+body of the space, as under a roof, or inside another body are left out.
 """
 
 from __future__ import annotations
@@ -14,11 +15,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from quasilux.ifc._inside import inside_bodies
+from quasilux.ifc._inside import Bodies, is_inside
+from quasilux.ifc._solids import is_closed
 
 if TYPE_CHECKING:
     from quasilux.ifc._findings import Findings
-    from quasilux.ifc._geometry import Floats, Shape
+    from quasilux.ifc._geometry import Floats
     from quasilux.ifc._spaces import Space
 
 # Share of its smallest rectangle that a rectangular footprint fills.
@@ -38,14 +40,14 @@ class Terms:
         Above the floor, and along the walls.
     origin_m : ndarray of shape (3,)
         What is subtracted from coordinates.
-    shapes : sequence of Shape
-        Bodies, within which no point is to lie.
+    bodies : Bodies
+        Within these no point is to lie.
     """
 
     height_m: float
     wall_zone_m: float
     origin_m: Floats
-    shapes: Sequence[Shape]
+    bodies: Bodies
 
 
 def workplanes(spaces: Sequence[Space], terms: Terms, findings: Findings) -> list[dict[str, Any]]:
@@ -77,27 +79,56 @@ def _workplane(space: Space, terms: Terms, findings: Findings) -> dict[str, Any]
     if footprint is None or footprint.area < 0.01:
         return "without a floor"
     z = float(box[0][2]) + terms.height_m
+    place = f'IfcSpace "{space.title}" {space.global_id}'
+    if not _has_level_floor(space.corners):
+        findings.note("the floor is not level: the workplane is above its lowest point", place)
     corner, u, v = _rectangle(footprint)
     sides = np.array([np.linalg.norm(u), np.linalg.norm(v)])
+    grid = None
     if sides.all() and footprint.area >= _RECTANGULAR * sides.prod():
-        return _grid(corner, u, v, z, terms)
-    points = _points(footprint, z, terms.wall_zone_m)
+        grid = _grid(corner, u, v, z, terms)
+        points = _grid_points(grid)
+    else:
+        points = _points(footprint, z, terms.wall_zone_m)
     if not len(points):
         return "too narrow for its wall zone"
     if len(points) > _MOST_POINTS:
         return f"with more than {_MOST_POINTS} points"
-    is_free = ~inside_bodies(points, terms.shapes)
-    if not is_free.any():
+    kept = _kept(points, space.corners, terms.bodies, findings, place)
+    if not len(kept):
         return "filled by a body"
-    if not is_free.all():
-        place = f'IfcSpace "{space.title}" {space.global_id}'
-        findings.note("points of the workplane inside bodies are left out", place)
-    chosen = points[is_free] - terms.origin_m
+    if grid is not None and len(kept) == len(points):
+        rounded = (np.round(grid["origin"] - terms.origin_m, 6) + 0.0).tolist()
+        return {**grid, "origin": rounded, "rule": "en12464", "normal": [0, 0, 1]}
     return {
         "kind": "points",
-        "points": (np.round(chosen, 6) + 0.0).tolist(),
-        "normals": [[0, 0, 1]] * len(chosen),
+        "points": (np.round(kept - terms.origin_m, 6) + 0.0).tolist(),
+        "normals": [[0, 0, 1]] * len(kept),
     }
+
+
+def _has_level_floor(corners: Floats) -> bool:
+    """Whether the facets of a space at its lowest point have a good part of its area in plan."""
+    cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    heights = corners[..., 2] - corners[..., 2].min()
+    is_low = heights.max(axis=1) < 0.01
+    # Facets below and above make up twice the area in plan.
+    return bool(np.abs(cross[is_low, 2]).sum() >= 0.45 * np.abs(cross[:, 2]).sum())
+
+
+def _kept(
+    points: Floats, space: Floats, bodies: Bodies, findings: Findings, place: str
+) -> Floats:
+    """Points within the body of their space and in no other."""
+    if is_closed(space):
+        is_within = is_inside(points, space)
+        if not is_within.all():
+            findings.note("points of the workplane outside the space are left out", place)
+        points = points[is_within]
+    is_free = ~bodies.hold(points)
+    if not is_free.all():
+        findings.note("points of the workplane inside bodies are left out", place)
+    return points[is_free]
 
 
 def en12464_spacing_m(side_m: float) -> float:
@@ -121,32 +152,28 @@ def _zone_m(wall_zone_m: float, width_m: float) -> float:
     return min(wall_zone_m, (1.0 - _LEAST_WIDTH_SHARE) / 2.0 * width_m)
 
 
-def _grid(corner: Floats, u: Floats, v: Floats, z: float, terms: Terms) -> dict[str, Any] | str:
-    """A grid for a space that is a rectangle, or what the space is that gets none."""
+def _grid(corner: Floats, u: Floats, v: Floats, z: float, terms: Terms) -> dict[str, Any]:
+    """Origin, in coordinates of the model, and edges of a grid for a space that is a rectangle."""
     sides = [float(np.linalg.norm(edge)) for edge in (u, v)]
     insets = [_zone_m(terms.wall_zone_m, side) for side in sides]
     begin = corner + u / sides[0] * insets[0] + v / sides[1] * insets[1]
-    place = np.array([*begin, z])
     edges = [edge * (side - 2 * inset) / side for edge, side, inset in zip((u, v), sides, insets)]
-    if inside_bodies(_some_points(place, edges), terms.shapes).all():
-        return "filled by a body"
     # Edges of a turned rectangle stay square.
     flat = [[*(np.round(edge, 9) + 0.0).tolist(), 0.0] for edge in edges]
-    return {
-        "kind": "grid",
-        "origin": (np.round(place - terms.origin_m, 6) + 0.0).tolist(),
-        "u": flat[0],
-        "v": flat[1],
-        "rule": "en12464",
-        "normal": [0, 0, 1],
-    }
+    return {"kind": "grid", "origin": np.array([*begin, z]), "u": flat[0], "v": flat[1]}
 
 
-def _some_points(corner: Floats, edges: Sequence[Floats]) -> Floats:
-    """Nine by nine points over a grid, of shape (81, 3)."""
-    s, t = np.meshgrid(*2 * [(np.arange(9) + 0.5) / 9])
-    flat = corner[:2] + s.reshape(-1, 1) * edges[0] + t.reshape(-1, 1) * edges[1]
-    return np.column_stack([flat, np.full(len(flat), corner[2])])
+def _grid_points(grid: dict[str, Any]) -> Floats:
+    """The points that the rule of EN 12464-1 gives to a grid, of shape (n, 3)."""
+    edges = np.array([grid["u"], grid["v"]])
+    sides = np.linalg.norm(edges, axis=1)
+    # The shorter side counts where the other is twice as long or more.
+    side = float(sides.min() if sides.max() >= 2 * sides.min() else sides.max())
+    counts = [max(1, math.ceil(one / en12464_spacing_m(side) * (1 - 1e-9))) for one in sides]
+    if counts[0] * counts[1] > _MOST_POINTS:
+        counts = [9, 9]
+    s, t = np.meshgrid(*((np.arange(count) + 0.5) / count for count in counts))
+    return grid["origin"] + s.reshape(-1, 1) * edges[0] + t.reshape(-1, 1) * edges[1]
 
 
 def _points(footprint: Any, z: float, wall_zone_m: float) -> Floats:
