@@ -140,7 +140,7 @@ def test_sources_that_cannot_be_used_are_told(tmp_path: Path) -> None:
     # 4 pi x 3 lm by lumen or kilolumen.
     even = {0.0: 3.0, 180.0: 3.0}
     cases = [
-        (model.distribution({0.0: even}), "plausible in neither cd/lm nor cd/klm"),
+        (model.distribution({0.0: even}), "not plausible in any of cd/lm, cd/klm and cd"),
         (model.distribution({0.0: even}, "TYPE_B"), "a goniometric source of TYPE_B is left out"),
         (model.distribution({0.0: {0.0: -80.0, 180.0: 80.0}}), "makes no luminaire"),
         (model.make("IfcDocumentReference", "../lamp.ldt"), 'the file "../lamp.ldt"'),

@@ -123,13 +123,10 @@ class Placed:
         Keys of each; ``photometry`` is the name that the mapping has for its file.
     unmapped : list of Fixture
         Those of types that no mapping has a file for.
-    kept_bodies : set of int
-        Numbers of products whose bodies stay.
     """
 
     luminaires: list[dict[str, Any]]
     unmapped: list[Fixture]
-    kept_bodies: set[int]
 
 
 def place_fixtures(
@@ -137,23 +134,17 @@ def place_fixtures(
     fixtures: Iterable[Fixture],
     mapping: Mapping,
     shapes: dict[int, Shape],
-    *,
-    keep_bodies: bool,
 ) -> Placed:
     """Give fixtures the photometric files of a mapping, in m and coordinates of the model."""
-    placed = Placed([], [], set())
+    placed = Placed([], [])
     used: set[str] = set()
     for fixture in fixtures:
         entry = mapping.luminaire(fixture.names)
         if entry is None:
             placed.unmapped.append(fixture)
-            if keep_bodies:
-                placed.kept_bodies.add(fixture.product.id())
             continue
         key, keys = entry
         used.add(key)
-        if keys.get("keep_body", keep_bodies):
-            placed.kept_bodies.add(fixture.product.id())
         if keys.get("skip"):
             message = f'fixtures of "{key}" are left out, as the mapping says'
             model.findings.note(message, _model.label(fixture.product))
@@ -165,19 +156,33 @@ def place_fixtures(
     return placed
 
 
+def without_bodies(
+    fixtures: Iterable[Fixture], mapping: Mapping, *, keep_bodies: bool
+) -> set[int]:
+    """Return the numbers of the fixtures whose bodies do not stay."""
+    found: set[int] = set()
+    for fixture in fixtures:
+        entry = mapping.luminaire(fixture.names)
+        keys = entry[1] if entry is not None else {}
+        if not keys.get("keep_body", keep_bodies):
+            found.add(fixture.product.id())
+    return found
+
+
 def _luminaire(
     model: Model, fixture: Fixture, keys: dict[str, Any], shapes: dict[int, Shape]
 ) -> dict[str, Any]:
     turn = _turn(fixture.frame)
     offset = np.array(keys.get("offset_m", (0.0, 0.0, 0.0)), dtype=float)
+    aim = np.array(keys.get("aim", (0.0, 0.0, -1.0)), dtype=float)
+    # Light along x has its C0 along y, where the mapping does not say.
+    along_x = np.linalg.norm(aim[1:]) < 1e-6 * np.linalg.norm(aim)
+    c0 = np.array(keys.get("c0", (0.0, 1.0, 0.0) if along_x else (1.0, 0.0, 0.0)), dtype=float)
     centre = np.zeros(3)
     if keys.get("position", "auto") == "auto" and fixture.product.id() in shapes:
-        centre = _centre(model, fixture, turn, shapes[fixture.product.id()])
+        centre = _centre(model, fixture, turn, aim, shapes[fixture.product.id()])
     position = fixture.frame[:3, 3] + turn @ (centre + offset)
-    axes = {
-        name: turn @ np.array(keys.get(name, default), dtype=float)
-        for name, default in (("aim", (0.0, 0.0, -1.0)), ("c0", (1.0, 0.0, 0.0)))
-    }
+    axes = {"aim": turn @ aim, "c0": turn @ c0}
     _tell_maintenance(model, fixture)
     others = ("as", "rotation_deg", "dimming", "flux_lm")
     rest = {name: keys[name] for name in others if name in keys}
@@ -191,11 +196,13 @@ def _turn(frame: Floats) -> Floats:
     return turn / np.where(length > 0, length, 1.0)
 
 
-def _centre(model: Model, fixture: Fixture, turn: Floats, shape: Shape) -> Floats:
+def _centre(
+    model: Model, fixture: Fixture, turn: Floats, aim: Floats, shape: Shape
+) -> Floats:
     """The photometric centre in coordinates of the fixture, in m.
 
-    It is the origin, where that is at the lower side of the body; else the middle of the lower
-    side: an origin at the ceiling is not where a pendant shines, and one above the body of a
+    It is the origin, where that is at the side of the body that the light leaves, mostly the lower
+    one; else the middle of that side: an origin at the ceiling is not where a pendant shines, and one above the body of a
     recessed luminaire is above the ceiling.
     """
     local = (shape.corners.reshape(-1, 3) - fixture.frame[:3, 3]) @ turn
@@ -206,15 +213,22 @@ def _centre(model: Model, fixture: Fixture, turn: Floats, shape: Shape) -> Float
             "photometric files lie: if its light is turned, set rotation_deg = 90 in the mapping",
             _model.label(fixture.product),
         )
-    is_within = (low[:2] <= _AT_LOWER_SIDE_M).all() and (high[:2] >= -_AT_LOWER_SIDE_M).all()
-    if is_within and abs(low[2]) <= _AT_LOWER_SIDE_M:
+    axis = int(np.abs(aim).argmax())
+    side = (high if aim[axis] > 0 else low)[axis]
+    is_within = (low <= _AT_LOWER_SIDE_M).all() and (high >= -_AT_LOWER_SIDE_M).all()
+    if is_within and abs(side) <= _AT_LOWER_SIDE_M:
         return np.zeros(3)
+    which = "side that it aims at"
+    if axis == 2:
+        which = "upper side" if aim[axis] > 0 else "lower side"
     model.findings.note(
-        "the photometric centre is the middle of the lower side of the body, and not the origin of "
+        f"the photometric centre is the middle of the {which} of the body, and not the origin of "
         'the fixture; position = "origin" in the mapping keeps that',
         _model.label(fixture.product),
     )
-    return np.array([(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, low[2]])
+    centre = (low + high) / 2
+    centre[axis] = side
+    return centre
 
 
 def _tell_maintenance(model: Model, fixture: Fixture) -> None:

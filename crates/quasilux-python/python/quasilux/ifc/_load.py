@@ -113,6 +113,7 @@ class _Import:
         taken = self._taken(chosen, bodies)
         luminaires, lamps = self._luminaires(chosen, shapes)
         taken = {number: shape for number, shape in taken.items() if number not in lamps}
+        self._tell_enclosed(luminaires, taken)
         if not taken:
             having = f"{len(products)} of its products have a shape" if products else "it has none"
             message = f"no element with surfaces ({having}); expected walls, floors or the like"
@@ -156,16 +157,12 @@ class _Import:
         model = self.model
         fixtures = _fixtures.fixtures_of(model, self.mapping)
         sources = _sources.sources_of(model)
-        everywhere = not (self.terms.spaces or self.terms.storey)
-        inside = [
-            one for one in fixtures if everywhere or _is_in(one.product, one.frame[:3, 3], chosen)
-        ]
+        inside = [one for one in fixtures if self._is_in(one.product, one.frame[:3, 3], chosen)]
         if len(inside) < len(fixtures):
             count = len(fixtures) - len(inside)
             self.findings.note(f"fixtures of other spaces ({count}) are left out")
-        placed = _fixtures.place_fixtures(
-            model, inside, self.mapping, shapes, keep_bodies=self.terms.keep_bodies
-        )
+        keep = self.terms.keep_bodies
+        placed = _fixtures.place_fixtures(model, inside, self.mapping, shapes)
         unmapped = {fixture.product.id() for fixture in placed.unmapped}
         mapped = {fixture.product.id() for fixture in inside} - unmapped
         luminaires = [self._with_file(keys) for keys in placed.luminaires]
@@ -175,20 +172,42 @@ class _Import:
             if number in mapped:
                 note = "the mapping goes before the goniometric source of a fixture"
                 self.findings.note(note, _model.label(source.product))
-            elif everywhere or _is_in(source.product, source.frame[:3, 3], chosen):
+            elif self._is_in(source.product, source.frame[:3, 3], chosen):
                 lit.add(number)
                 luminaires.append(self._of_source(source))
         _fixtures.tell_unmapped(model, [f for f in placed.unmapped if f.product.id() not in lit])
-        bodies = {fixture.product.id() for fixture in fixtures} | lit
-        if not self.terms.keep_bodies:
-            bodies |= _fixtures.lamps_of(model)
-        left_out = bodies - placed.kept_bodies
-        if left_out & set(shapes):
-            count = len(left_out & set(shapes))
+        bodies = _fixtures.without_bodies(fixtures, self.mapping, keep_bodies=keep)
+        if not keep:
+            bodies |= lit | _fixtures.lamps_of(model)
+        if bodies & set(shapes):
+            count = len(bodies & set(shapes))
             self.findings.note(
                 f"bodies of light fixtures ({count}) are left out: they would stand in their light"
             )
-        return luminaires, left_out
+        return luminaires, bodies
+
+    def _is_in(self, product: Any, position: Floats, chosen: list[Space]) -> bool:
+        """Whether a fixture is in what was chosen: a space, a storey or all."""
+        terms = self.terms
+        if not (terms.spaces or terms.storey) or _is_in(product, position, chosen):
+            return True
+        names = _spaces.storey_names((), terms.storey)
+        return not terms.spaces and _spaces.is_in_storeys(product, names)
+
+    def _tell_enclosed(self, luminaires: list[dict[str, Any]], taken: dict[int, Shape]) -> None:
+        """Tell of luminaires whose light begins inside a body, as above an uncut ceiling."""
+        if not luminaires:
+            return
+        aims = np.array([np.asarray(keys["aim"], dtype=float) for keys in luminaires])
+        aims /= np.linalg.norm(aims, axis=1)[:, None]
+        begin = np.array([keys["position"] for keys in luminaires]) + 1e-3 * aims
+        for place in begin[Bodies(taken.values()).hold(begin)]:
+            at = ", ".join(f"{value:.3f}" for value in place)
+            self.findings.note(
+                "a luminaire inside a body, which keeps its light: move it by offset_m in the "
+                "mapping, or cut the body",
+                f"({at}) m",
+            )
 
     def _with_file(self, keys: dict[str, Any]) -> dict[str, Any]:
         name = self.files.copy(keys["photometry"], self.mapping.folder, self.mapping.file)

@@ -121,6 +121,17 @@ def _check_luminaire(place: str, keys: dict[str, Any], file: str) -> None:
     for key in ("aim", "c0", "offset_m"):
         if key in keys and not _is_vector(keys[key]):
             raise input_error(f"{place}.{key} is {keys[key]!r}; expected [x, y, z]", file)
+    _check_axes(place, keys, file)
+
+
+def _check_axes(place: str, keys: dict[str, Any], file: str) -> None:
+    for key in ("aim", "c0"):
+        if key in keys and not any(keys[key]):
+            raise input_error(f"{place}.{key} is {keys[key]!r}; expected a direction", file)
+    x, y, z = keys.get("aim", (0, 0, -1))
+    u, v, w = keys.get("c0", (0, 0, 0))
+    if "c0" in keys and not any((y * w - z * v, z * u - x * w, x * v - y * u)):
+        raise input_error(f"{place}.c0 is along aim; expected another direction", file)
 
 
 def _is_vector(value: Any) -> bool:

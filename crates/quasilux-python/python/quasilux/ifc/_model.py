@@ -14,6 +14,7 @@ from quasilux.ifc._findings import Findings
 # Limits of what is read; beyond them a file is refused.
 MOST_BYTES = 1 << 30
 MOST_PRODUCTS = 200_000
+_MOST_PLACEMENTS = 256
 
 _SCHEMAS = ("IFC2X3", "IFC4", "IFC4X3")
 # What the kernel logs of a file.
@@ -120,13 +121,22 @@ class Model:
         import ifcopenshell.util.placement as placements
         import numpy as np
 
-        if get(product, "ObjectPlacement") is None:
-            return np.eye(4)
+        matrix = np.eye(4)
+        place = get(product, "ObjectPlacement")
         try:
-            matrix = np.array(placements.get_local_placement(product.ObjectPlacement), dtype=float)
+            for _ in range(_MOST_PLACEMENTS):
+                if place is None:
+                    return matrix if np.isfinite(matrix).all() else None
+                if not is_a(place, "IfcLocalPlacement"):
+                    return np.array(placements.get_local_placement(place), dtype=float) @ matrix
+                step = np.array(placements.get_axis2placement(place.RelativePlacement), dtype=float)
+                # RefDirection need not be square to Axis: x lies in the plane of both.
+                step[:3, 0] = np.cross(step[:3, 1], step[:3, 2])
+                matrix = step @ matrix
+                place = get(place, "PlacementRelTo")
         except Exception:
             return None
-        return matrix if matrix.shape == (4, 4) and np.isfinite(matrix).all() else None
+        return None
 
 
 def _looked_at(path: str, name: str) -> set[str]:
@@ -160,7 +170,8 @@ def _looked_at(path: str, name: str) -> set[str]:
     if b"END-ISO-10303-21" not in data[-1024:]:
         message = "the file is cut short; expected END-ISO-10303-21 at its end"
         raise input_error(message, name, data.count(b"\n") + 1)
-    return {word.decode("ascii").upper() for word in set(_INSTANCE.findall(data))}
+    words = {found.group(1) for found in _INSTANCE.finditer(data)}
+    return {word.decode("ascii").upper() for word in words}
 
 
 def _log(kernel: Any) -> str:

@@ -58,7 +58,25 @@ def _degrees(parts: Any) -> float | None:
 
 
 def _north_deg(model: Model) -> float:
-    """North, counter-clockwise from +y: the true one where the model has it."""
+    """North, counter-clockwise from +y: that of the map, which IFC puts before TrueNorth."""
+    of_map, true = _map_north_deg(model), _true_north_deg(model)
+    if of_map is not None:
+        if true is None:
+            message = "north is that of the map's grid: the model has no TrueNorth"
+            model.findings.note(message)
+        elif abs((of_map - true + 180) % 360 - 180) > 0.01:
+            model.findings.note(
+                f"north is {of_map:g} degrees from +y by IfcMapConversion, which is taken, and "
+                f"{true:g} by TrueNorth; mend north_deg in [site] if that is right"
+            )
+        return of_map
+    if true is not None:
+        return true
+    model.findings.note("the model does not say where north is: +y is taken")
+    return 0.0
+
+
+def _true_north_deg(model: Model) -> float | None:
     for context in model.of_class("IfcGeometricRepresentationContext"):
         if _model.is_a(context, "IfcGeometricRepresentationSubContext"):
             continue
@@ -66,7 +84,7 @@ def _north_deg(model: Model) -> float:
             continue
         direction = _model.get(context, "TrueNorth")
         ratios = _model.get(direction, "DirectionRatios") if direction is not None else None
-        if ratios is None:
+        if ratios is None or len(ratios) < 2:
             continue
         x, y = (float(ratio) for ratio in tuple(ratios)[:2])
         if len(ratios) != 2:
@@ -74,16 +92,17 @@ def _north_deg(model: Model) -> float:
             model.findings.note(message)
         if math.hypot(x, y) > 0:
             return _counter_clockwise_deg(x, y)
+    return None
+
+
+def _map_north_deg(model: Model) -> float | None:
     for conversion in model.of_class("IfcMapConversion"):
         abscissa = _model.get(conversion, "XAxisAbscissa")
         ordinate = _model.get(conversion, "XAxisOrdinate")
         if abscissa is not None and ordinate is not None and math.hypot(abscissa, ordinate) > 0:
-            message = "north is that of the map's grid: the model has no TrueNorth"
-            model.findings.note(message)
             # Map north (0, 1) in coordinates of the model.
             return _counter_clockwise_deg(float(ordinate), float(abscissa))
-    model.findings.note("the model does not say where north is: +y is taken")
-    return 0.0
+    return None
 
 
 def _counter_clockwise_deg(x: float, y: float) -> float:

@@ -3,7 +3,8 @@
 `IfcLightSourceGoniometric` has a placement, a flux, and a distribution or the name of a file. The
 placement orients the distribution; how, IFC leaves open. Here the axes are those of a photometric
 file: gamma = 0 along -z, C0 along x. Intensities are relative to the flux, in cd/lm or cd/klm:
-files with either are around, and the flux that the distribution has tells which.
+files with either are around, or in cd; the unit that the model declares, or the flux that the
+distribution has, tells which.
 
 The other sources have intensities from 0 to 1 for pictures, and no photometric meaning.
 """
@@ -32,6 +33,10 @@ _MOST_DEPTH = 8
 MOST_FILE_BYTES = 64 << 20
 # Flux of a distribution over that of its lamps: losses, and room for rounded or inflated figures.
 _LEAST_RATIO, _MOST_RATIO = 0.1, 1.3
+# How much nearer to all of the flux the better one of two units has to come, as a ratio.
+_CLEARLY = 1.3
+# Items of representations that are looked at in a product.
+_MOST_ITEMS = 2_000
 
 
 @dataclass(frozen=True)
@@ -63,7 +68,7 @@ def sources_of(model: Model) -> list[Source]:
     used: set[int] = set()
     for product in model.of_class("IfcProduct"):
         place = None
-        for item, within in _light_items(product):
+        for item, within in _light_items(model, product):
             used.add(item.id())
             if not _model.is_a(item, "IfcLightSourceGoniometric"):
                 continue
@@ -93,28 +98,43 @@ def _tell_others(model: Model, used: set[int]) -> None:
             )
 
 
-def _light_items(product: Any) -> list[tuple[Any, Floats]]:
+def _light_items(model: Model, product: Any) -> list[tuple[Any, Floats]]:
     """Light sources in representations, with where they are in the product, in its units."""
-    found: list[tuple[Any, Floats]] = []
+    walk = _Walk()
     representation = _model.get(product, "Representation")
     for shape in _model.get(representation, "Representations") or ():
-        _walk(_model.get(shape, "Items") or (), np.eye(4), 0, found)
-    return found
+        walk.through(_model.get(shape, "Items") or (), np.eye(4), 0)
+    if walk.left <= 0:
+        message = f"more than {_MOST_ITEMS} items: light sources among the others are left out"
+        model.findings.note(message, _model.label(product))
+    return list(walk.found.values())
 
 
-def _walk(items: Any, within: Floats, depth: int, found: list[tuple[Any, Floats]]) -> None:
-    import ifcopenshell.util.placement as placements
+class _Walk:
+    """Light sources of a product; one that several representations have at a place is one."""
 
-    for item in items:
-        if _model.is_a(item, "IfcLightSource"):
-            found.append((item, within))
-        elif _model.is_a(item, "IfcMappedItem") and depth < _MOST_DEPTH:
-            try:
-                step = np.array(placements.get_mappeditem_transformation(item), dtype=float)
-                inner = item.MappingSource.MappedRepresentation.Items or ()
-            except Exception:
-                continue
-            _walk(inner, within @ step, depth + 1, found)
+    def __init__(self) -> None:
+        self.left = _MOST_ITEMS
+        self.found: dict[tuple[int, bytes], tuple[Any, Floats]] = {}
+
+    def through(self, items: Any, within: Floats, depth: int) -> None:
+        """Look at items, and at those that they map."""
+        import ifcopenshell.util.placement as placements
+
+        for item in items:
+            self.left -= 1
+            if self.left <= 0:
+                return
+            if _model.is_a(item, "IfcLightSource"):
+                place = (np.round(within, 6) + 0.0).tobytes()
+                self.found[item.id(), place] = (item, within)
+            elif _model.is_a(item, "IfcMappedItem") and depth < _MOST_DEPTH:
+                try:
+                    step = np.array(placements.get_mappeditem_transformation(item), dtype=float)
+                    inner = item.MappingSource.MappedRepresentation.Items or ()
+                except Exception:
+                    continue
+                self.through(inner, within @ step, depth + 1)
 
 
 def _goniometric(
@@ -132,6 +152,9 @@ def _goniometric(
     if not np.isfinite(frame).all():
         model.findings.note("a goniometric source at no finite position is left out", label)
         return None
+    if np.linalg.det(frame[:3, :3]) < 0:
+        message = "a mirrored light source: its distribution is turned, and not mirrored"
+        model.findings.note(message, label)
     title = _model.text_of(item, "Name") or _model.text_of(product, "Name") or "source"
     data_source = _model.get(item, "LightDistributionDataSource")
     if _model.is_a(data_source, "IfcLightIntensityDistribution"):
@@ -218,6 +241,9 @@ def _photometry(
         message = f"a goniometric source of {flux_lm} lm is left out; expected more than 0 lm"
         model.findings.note(message, label)
         return None
+    if table[1][0] > 0:
+        message = f"a distribution begins at gamma {table[1][0]:g}: below that it is dark"
+        model.findings.note(message, label)
     try:
         unscaled = photometry.from_intensities(*table)
         per_lm = _per_lumen(model, label, unscaled.flux_lm, float(flux_lm))
@@ -238,26 +264,72 @@ def _photometry(
 
 
 def _per_lumen(model: Model, label: str, integral: float, flux_lm: float) -> float | None:
-    """What makes intensities cd/lm: 1 or 0.001, or the reciprocal of the flux for cd."""
-    readings = {
-        "cd/klm": 1e-3,
-        "cd/lm": 1.0,
-        "cd": 1.0 / flux_lm,
+    """What makes intensities cd/lm; None, which is told, where no unit or several may be meant."""
+    declared = _declared_per_lumen(model)
+    if declared is not None:
+        readings = {"the unit that the model declares": declared}
+    else:
+        readings = {"cd/lm": 1.0, "cd/klm": 1e-3, "cd": 1.0 / flux_lm}
+    plausible = {
+        unit: integral * factor
+        for unit, factor in readings.items()
+        if _LEAST_RATIO <= integral * factor <= _MOST_RATIO
     }
-    for unit, factor in readings.items():
-        ratio = integral * factor
-        if _LEAST_RATIO <= ratio <= _MOST_RATIO:
-            message = (
-                f"intensities are taken as {unit}: with that its distribution has "
-                f"{100 * ratio:.0f} % of {flux_lm:g} lm"
-            )
-            model.findings.note(message, label)
-            return factor
+    if not plausible:
+        units = "the unit that the model declares" if declared else "any of cd/lm, cd/klm and cd"
+        message = (
+            f"a distribution is left out: it has {integral:.3g} lm by lumen, which is not "
+            f"plausible in {units}"
+        )
+        model.findings.note(message, label)
+        return None
+    unit = _chosen_unit(plausible)
+    if unit is None:
+        shares = " or ".join(f"{100 * share:.0f} % in {one}" for one, share in plausible.items())
+        message = (
+            f"a distribution is left out: it has {shares} of {flux_lm:g} lm, and the model does "
+            "not say which; map the type of its fixture to the file of the manufacturer"
+        )
+        model.findings.note(message, label)
+        return None
     message = (
-        f"a distribution is left out: it has {integral:.3g} lm by lumen, which is plausible in "
-        "neither cd/lm nor cd/klm"
+        f"intensities are taken as {unit}: with that its distribution has "
+        f"{100 * plausible[unit]:.0f} % of {flux_lm:g} lm"
     )
     model.findings.note(message, label)
+    return readings[unit]
+
+
+def _chosen_unit(plausible: dict[str, float]) -> str | None:
+    """cd/lm, which IFC asks for, else what is clearly nearer to all of the flux, or the same."""
+    if len(plausible) == 1 or "cd/lm" in plausible:
+        return next(iter(plausible))
+
+    def distance(unit: str) -> float:
+        # A luminaire may lose much of the flux of its lamps, and cannot add to it.
+        logarithm = math.log(plausible[unit])
+        return 3 * logarithm if logarithm > 0 else -logarithm
+
+    best, second = sorted(plausible, key=distance)[:2]
+    is_same = abs(plausible[best] - plausible[second]) < 0.02 * plausible[best]
+    is_clear = distance(second) - distance(best) > math.log(_CLEARLY)
+    return best if is_same or is_clear else None
+
+
+def _declared_per_lumen(model: Model) -> float | None:
+    """The unit of intensity distributions in cd/lm; None where the model declares none."""
+    import ifcopenshell.util.unit as units
+
+    for assignment in model.of_class("IfcUnitAssignment"):
+        for unit in _model.get(assignment, "Units") or ():
+            if _model.get(unit, "UnitType") != "LUMINOUSINTENSITYDISTRIBUTIONUNIT":
+                continue
+            try:
+                scale = float(units.get_derived_unit_scale(unit))
+            except Exception:
+                continue
+            if math.isfinite(scale) and scale > 0:
+                return scale
     return None
 
 
@@ -283,6 +355,8 @@ def _table(distribution: Any, unit_deg: float) -> tuple[Floats, Floats, Floats]:
         raise ValueError("angles are not finite")
     if c.size * gammas.size > _MOST_VALUES:
         raise ValueError(f"more than {_MOST_VALUES} intensities at all angles of its planes")
+    if len({planes[angle][0][0] for angle in c}) > 1:
+        raise ValueError("its planes begin at different gamma")
     # Planes with angles of their own are brought to all angles, along straight lines.
     rows = [np.interp(gammas, *planes[angle], left=0.0, right=0.0) for angle in c]
     return c, gammas, np.array(rows)

@@ -214,18 +214,37 @@ def members(
             lowest, highest = shape.box_m
             if (highest >= low).all() and (lowest <= high).all():
                 kept.add(number)
+    kept |= _with_parts(kept, model)
     return {number: shape for number, shape in shapes.items() if number in kept}
+
+
+def _with_parts(kept: set[int], model: Model) -> set[int]:
+    """Numbers of what fills openings of products, and of what they are made of."""
+    found: set[int] = set()
+    ahead = [model.by_id(number) for number in kept]
+    while ahead:
+        product = ahead.pop()
+        if product is None or product.id() in found or _model.is_a(product, "IfcSpace"):
+            continue
+        found.add(product.id())
+        for voiding in _model.get(product, "HasOpenings") or ():
+            opening = _model.get(voiding, "RelatedOpeningElement")
+            for filling in _model.get(opening, "HasFillings") or ():
+                ahead.append(_model.get(filling, "RelatedBuildingElement"))
+        for relation in _model.get(product, "IsDecomposedBy") or ():
+            ahead += _model.get(relation, "RelatedObjects") or ()
+    return found
 
 
 def of_storeys(
     spaces: Sequence[Space], storey: str | None, shapes: dict[int, Shape]
 ) -> dict[int, Shape]:
     """Return the products of the storeys of spaces, and those that reach into them."""
-    names = {space.storey for space in spaces} | ({storey} if storey else set())
+    names = storey_names(spaces, storey)
     inside = {
         number: shape
         for number, shape in shapes.items()
-        if _model.text_of(storey_of(shape.product), "Name") in names
+        if is_in_storeys(shape.product, names)
     }
     boxes = [space.box_m for space in spaces if space.box_m is not None]
     boxes = boxes or [shape.box_m for shape in inside.values()]
@@ -239,6 +258,17 @@ def of_storeys(
         if shape.box_m[1][2] >= low and shape.box_m[0][2] <= high
     }
     return dict(sorted({**inside, **near}.items()))
+
+
+def storey_names(spaces: Iterable[Space], storey: str | None) -> frozenset[str]:
+    """Return the names of the storeys of spaces, and that of a storey, in lower case."""
+    names = {space.storey.casefold() for space in spaces} | {(storey or "").casefold()}
+    return frozenset(names - {""})
+
+
+def is_in_storeys(product: Any, names: frozenset[str]) -> bool:
+    """Whether the model puts a product into a storey of one of the names of `storey_names`."""
+    return _model.text_of(storey_of(product), "Name").casefold() in names
 
 
 def _related(space: Any) -> set[int]:
