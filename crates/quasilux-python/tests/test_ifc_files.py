@@ -21,7 +21,7 @@ from test_ifc_rooms import found, lamp_file, load  # noqa: E402
 import quasilux  # noqa: E402
 from quasilux import ifc  # noqa: E402
 from quasilux.ifc import __main__ as program  # noqa: E402
-from quasilux.ifc import _care, _isolated, _load  # noqa: E402
+from quasilux.ifc import _care, _geometry, _imported, _isolated, _load  # noqa: E402
 from quasilux.ifc._mapping import read_mapping  # noqa: E402
 from quasilux.ifc._surfaces import GLASS_TRANSMITTANCE, REFLECTANCES  # noqa: E402
 
@@ -199,7 +199,7 @@ def test_what_breaks_the_kernel_is_left_out(
     door = model.file.by_type("IfcDoor")[0]
     deaths: list[tuple[bool, list[int]]] = []
 
-    def run(folder: str, job: Any) -> str:
+    def run(folder: str, job: Any, end: float) -> str:
         care: _care.Care = job[3]
         deaths.append((care.one_by_one, list(care.skipped)))
         if not care.one_by_one:
@@ -207,7 +207,7 @@ def test_what_breaks_the_kernel_is_left_out(
         if not care.skipped:
             care.note(door.id())
             return "broke off (SIGSEGV)"
-        return real(folder, job)
+        return real(folder, job, end)
 
     real = _isolated._run
     monkeypatch.setattr(_isolated, "_run", run)
@@ -216,7 +216,7 @@ def test_what_breaks_the_kernel_is_left_out(
     (finding,) = found(imported, "ifcopenshell broke off (SIGSEGV)")
     assert finding.places == (f'IfcDoor "Door" {door.GlobalId}',)
     assert "door" not in imported.materials and "glass Clear" in imported.materials
-    monkeypatch.setattr(_isolated, "_run", lambda folder, job: "took more than 900 s")
+    monkeypatch.setattr(_isolated, "_run", lambda folder, job, end: "took more than 900 s")
     with pytest.raises(quasilux.InputError, match="ifcopenshell took more than 900 s; export"):
         ifc.load(path)
 
@@ -228,6 +228,85 @@ def test_a_process_that_dies_is_an_error(tmp_path: Path, monkeypatch: pytest.Mon
     monkeypatch.syspath_prepend(str(tmp_path))
     with pytest.raises(quasilux.InputError, match=r"ifcopenshell broke off \(SIGKILL\)"):
         ifc.load(path)
+
+
+def test_a_process_ends_at_its_limits(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = room().write(tmp_path)
+    monkeypatch.setattr(_isolated, "MOST_S", 0.0)
+    with pytest.raises(quasilux.InputError, match="took more than 0 s in all"):
+        ifc.load(path)
+
+
+def test_a_process_ends_with_its_parent(tmp_path: Path) -> None:
+    """The other process runs as long as its standard input is open, and not in its folder."""
+    (tmp_path / "numpy.py").write_text("raise ImportError('taken from the folder')")
+    os.mkfifo(tmp_path / "job")
+    # It waits for a writer of its job, who never comes.
+    process = subprocess.Popen(
+        [sys.executable, "-c", _isolated._CODE, str(tmp_path)],
+        stdin=subprocess.PIPE,
+        cwd=tmp_path,
+        stderr=subprocess.PIPE,
+    )
+    with pytest.raises(subprocess.TimeoutExpired):
+        process.wait(0.5)
+    _, told = process.communicate(timeout=20)
+    assert process.returncode == 1 and told == b""
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="bounds memory on Linux alone")
+def test_memory_is_bounded() -> None:
+    code = (
+        "import resource; from quasilux.ifc import _child; _child._bound_memory(); "
+        "print(resource.getrlimit(resource.RLIMIT_AS)[0])"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, check=True)
+    assert 0 < int(done.stdout) <= os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+
+
+def test_the_last_product_is_not_blamed_for_what_comes_later(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    progress = tmp_path / "progress"
+    care = _care.Care(progress=str(progress), one_by_one=True)
+    monkeypatch.setattr(_geometry, "CARE", care)
+    _load.load_here(room().write(tmp_path))
+    assert not progress.exists()
+
+
+def test_links_and_odd_names_are_not_written_through(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    imported = load(room(), tmp_path)
+    (tmp_path / "a.toml").symlink_to(tmp_path / "elsewhere.toml")
+    with pytest.raises(quasilux.InputError, match="a.toml: is there already"):
+        imported.write(tmp_path / "a.toml")
+    with pytest.raises(quasilux.InputError, match="File name too long"):
+        imported.write(tmp_path / ("x" * 246 + ".toml"))
+    with pytest.raises(quasilux.InputError, match="control characters in the name"):
+        imported.write(tmp_path / "a\nb.toml")
+    assert not (tmp_path / "elsewhere.toml").exists()
+    # The second of two files cannot be written: none stays.
+    real = _imported.write_whole
+
+    def write_whole(place: Path, data: bytes) -> None:
+        if place.suffix == ".toml":
+            raise OSError(28, "No space left on device", str(place))
+        real(place, data)
+
+    monkeypatch.setattr(_imported, "write_whole", write_whole)
+    with pytest.raises(quasilux.InputError, match="No space left on device"):
+        imported.write(tmp_path / "out" / "b.toml")
+    assert list((tmp_path / "out").iterdir()) == []
+
+
+def test_models_of_odd_names_make_projects(tmp_path: Path) -> None:
+    path = room().write(tmp_path)
+    for name in ("x" * 246 + ".ifc", "a\x01b.ifc"):
+        other = path.rename(tmp_path / name)
+        project = _load.load_here(other).write(tmp_path / "out")
+        quasilux.load(project)
+        path = other
 
 
 def test_damaged_models_are_errors_or_projects(tmp_path: Path) -> None:

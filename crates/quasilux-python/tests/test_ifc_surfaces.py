@@ -12,7 +12,8 @@ from ifc_models import Builder
 from test_ifc_rooms import area_m2, found, load
 
 from quasilux import ifc
-from quasilux.ifc import _glass
+from quasilux.ifc import _geometry, _glass, _model
+from quasilux.ifc._findings import Findings
 
 
 def bare_room() -> Builder:
@@ -157,3 +158,36 @@ def test_names_of_a_mapping_that_nothing_has_are_told(tmp_path: Path) -> None:
     imported = load(bare_room(), tmp_path, mapping=mapping)
     assert found(imported, 'no facet is of "IfcWal", which')
     assert not found(imported, 'no facet is of "IfcWall", which')
+
+
+@pytest.mark.parametrize("fault", ["no shape", "no depth", "no volume"])
+def test_openings_that_are_not_cut_are_told(fault: str, tmp_path: Path) -> None:
+    model = Builder()
+    wall = model.element("IfcWall", "South", [model.box((4, 0.2, 2.5), (0, 0, 0))])
+    opening = model.opening(wall, (1, 0.6, 1), (1, -0.2, 1))
+    solid = opening.Representation.Representations[0].Items[0]
+    if fault == "no shape":
+        opening.Representation = None
+    elif fault == "no depth":
+        solid.Depth = 0.0
+    else:
+        solid.ExtrudedDirection = model.make("IfcDirection", [1.0, 0.0, 0.0])
+    (finding,) = found(load(model, tmp_path), "an opening without a sound body")
+    assert opening.GlobalId in finding.places[0]
+
+
+def test_openings_that_the_kernel_passes_over_are_told(tmp_path: Path) -> None:
+    model = bare_room()
+    wall = model.file.by_type("IfcWall")[0]
+    load(model, tmp_path)
+    opened = _model.Model(tmp_path / "model.ifc", Findings())
+    whole = _geometry.shapes_of(opened, opened.of_class("IfcWall"))
+    opening = model.opening(wall, (1, 0.6, 1), (1, -0.4, 1))
+    assert not found(load(model, tmp_path), "an opening")
+    again = _model.Model(tmp_path / "model.ifc", Findings())
+    openings = _geometry.openings_of(again, again.of_class("IfcWall"))
+    own = _geometry.shapes_of(again, again.of_class("IfcOpeningElement"))
+    # The wall as it was without its opening.
+    _geometry.tell_uncut(again, openings, {**whole, **own})
+    (finding,) = again.findings.all()
+    assert "does not cut" in finding.message and opening.GlobalId in finding.places[0]

@@ -32,6 +32,11 @@ class Care:
                 file.write(str(number))
             os.replace(beside, self.progress)
 
+    def end(self) -> None:
+        """Note that no product is being made."""
+        if self.progress and os.path.exists(self.progress):
+            os.unlink(self.progress)
+
 
 # That of this process.
 CARE = Care()

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import pickle
 import sys
+import threading
 from typing import Any
 
 from quasilux import InputError
@@ -42,7 +43,28 @@ def _told(task: str, arguments: Any, keywords: Any) -> tuple[str, Any]:
         return "input", (message, os.fsdecode(arguments[0]), None, None, False)
 
 
-if __name__ == "__main__":
-    main(sys.argv[1])
+def run(folder: str) -> None:
+    """Run the task as a whole process: with bounded memory, and no longer than its parent."""
+    _bound_memory()
+    threading.Thread(target=_end_with_parent, daemon=True).start()
+    main(folder)
     # Without what native code does at the end of a process.
     os._exit(0)
+
+
+def _end_with_parent() -> None:
+    """Wait for the end of standard input, which its parent holds open."""
+    sys.stdin.buffer.read()
+    os._exit(1)
+
+
+def _bound_memory() -> None:
+    """Refuse memory beyond that of the machine, lest other processes be ended for it."""
+    if sys.platform != "linux":
+        return
+    import resource
+
+    memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+    _, hard = resource.getrlimit(resource.RLIMIT_AS)
+    most = memory if hard == resource.RLIM_INFINITY else min(memory, hard)
+    resource.setrlimit(resource.RLIMIT_AS, (most, hard))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import tempfile
+from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -21,6 +22,8 @@ if TYPE_CHECKING:
 
 # The geometry file; names of all files begin with that of the project.
 GEOMETRY = "model.obj"
+
+_MOST_STEM_BYTES = 120
 
 # A sensor in place of those that a project lacks, to see whether it loads.
 _STAND_IN = """
@@ -71,7 +74,10 @@ class Imported:
     @property
     def stem(self) -> str:
         """The name of the model without its ending, with which names of files begin."""
-        return os.path.splitext(os.path.basename(self.name))[0] or "model"
+        stem = os.path.splitext(os.path.basename(self.name))[0]
+        kept = "".join(c if c.isprintable() else " " for c in stem)
+        # With room for what names of files end with; at most 255 bytes are allowed.
+        return kept.encode()[:_MOST_STEM_BYTES].decode("utf-8", "ignore").strip() or "model"
 
     @property
     def text(self) -> str:
@@ -130,24 +136,15 @@ class Imported:
         out = Path(os.fsdecode(where))
         if out.suffix.lower() != ".toml":
             out = out / f"{self.stem}.toml"
-        files = self._all_files(out.stem)
-        if out.exists():
-            raise input_error("is there already; give another name, or remove it", str(out))
-        for name in files:
-            if (out.parent / name).exists():
-                message = (
-                    "is there already, and the project would have a file of this name; give "
-                    "another name, or remove it"
-                )
-                raise input_error(message, str(out.parent / name))
-        self.warnings()
+        if not out.name.isprintable():
+            raise input_error("control characters in the name; give another name", repr(str(out)))
+        files = {out.parent / name: data for name, data in self._all_files(out.stem).items()}
         try:
-            out.parent.mkdir(parents=True, exist_ok=True)
-            for name, data in files.items():
-                write_whole(out.parent / name, data)
-            write_whole(out, self._text(out.stem).encode())
+            _refuse_old(out, files)
         except OSError as error:
             raise input_error(error.strerror or str(error), str(error.filename or out)) from None
+        self.warnings()
+        _write_all({**files, out: self._text(out.stem).encode()})
         return out
 
     def warnings(self) -> tuple[str, ...]:
@@ -203,6 +200,37 @@ class Imported:
             f"{len(self.findings)} findings"
         )
         return f"<quasilux.ifc.Imported {self.name!r}: {counts}>"
+
+
+def _refuse_old(out: Path, files: Iterable[Path]) -> None:
+    # Links that lead nowhere are there, too.
+    for place in (out, *files):
+        try:
+            os.lstat(place)
+        except (FileNotFoundError, NotADirectoryError):
+            continue
+        message = "is there already; give another name, or remove it"
+        if place != out:
+            message = (
+                "is there already, and the project would have a file of this name; give another "
+                "name, or remove it"
+            )
+        raise input_error(message, str(place))
+
+
+def _write_all(files: dict[Path, bytes]) -> None:
+    """Write all files; none of them stays where one cannot be written."""
+    written: list[Path] = []
+    try:
+        for place, data in files.items():
+            place.parent.mkdir(parents=True, exist_ok=True)
+            write_whole(place, data)
+            written.append(place)
+    except OSError as error:
+        for place in written:
+            place.unlink(missing_ok=True)
+        where = str(error.filename or next(iter(files)))
+        raise input_error(error.strerror or str(error), where) from None
 
 
 def _obj(objects: list[tuple[str, str, Floats]]) -> bytes:

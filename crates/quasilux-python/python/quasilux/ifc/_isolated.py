@@ -21,6 +21,11 @@ from quasilux.ifc._care import Care
 # Seconds for a whole model at once, for one product, and for a model product by product.
 ALL_S, ONE_S, MOST_S = 900.0, 60.0, 3600.0
 _MOST_SKIPPED = 20
+# The folder that a command runs in is no place for modules.
+_CODE = (
+    "import sys; sys.path[:] = [part for part in sys.path if part]; "
+    "from quasilux.ifc._child import run; run(sys.argv[1])"
+)
 _LOOK_S = 0.05
 
 
@@ -36,7 +41,7 @@ def isolated(task: str, arguments: tuple[Any, ...], keywords: dict[str, Any], na
         care = Care(progress=os.path.join(folder, "progress"))
         begin = time.monotonic()
         while True:
-            how = _run(folder, (task, arguments, keywords, care))
+            how = _run(folder, (task, arguments, keywords, care), begin + MOST_S)
             result = os.path.join(folder, "result")
             if not how and os.path.exists(result):
                 with open(result, "rb") as file:
@@ -52,7 +57,7 @@ def isolated(task: str, arguments: tuple[Any, ...], keywords: dict[str, Any], na
             care.one_by_one = True
 
 
-def _run(folder: str, job: Any) -> str:
+def _run(folder: str, job: Any, end: float) -> str:
     """Run the process; how it ended, empty where it ended well."""
     for name in ("result", "progress"):
         if os.path.exists(os.path.join(folder, name)):
@@ -60,23 +65,26 @@ def _run(folder: str, job: Any) -> str:
     with open(os.path.join(folder, "job"), "wb") as file:
         pickle.dump(job, file)
     care: Care = job[3]
-    path = os.pathsep.join(part for part in sys.path if part)
+    path = os.pathsep.join(os.path.abspath(part) for part in sys.path if part)
     process = subprocess.Popen(
-        [sys.executable, "-m", "quasilux.ifc._child", folder],
-        stdin=subprocess.DEVNULL,
+        [sys.executable, "-c", _CODE, folder],
+        # Its end is that of this process, which the other one waits for.
+        stdin=subprocess.PIPE,
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,
         env={**os.environ, "PYTHONPATH": path},
     )
     try:
-        return _waited(process, care)
+        return _waited(process, care, end)
     finally:
         if process.poll() is None:
             process.kill()
         process.wait()
+        if process.stdin is not None:
+            process.stdin.close()
 
 
-def _waited(process: subprocess.Popen[bytes], care: Care) -> str:
+def _waited(process: subprocess.Popen[bytes], care: Care, end: float) -> str:
     changed = time.monotonic()
     seen: int | None = None
     while process.poll() is None:
@@ -87,6 +95,8 @@ def _waited(process: subprocess.Popen[bytes], care: Care) -> str:
         most = ONE_S if care.one_by_one and seen is not None else ALL_S
         if time.monotonic() - changed > most:
             return f"took more than {most:.0f} s"
+        if time.monotonic() > end:
+            return f"took more than {MOST_S:.0f} s in all"
     code = process.returncode
     if code == 0:
         return ""

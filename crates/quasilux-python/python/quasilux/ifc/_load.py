@@ -102,7 +102,13 @@ class _Import:
         """Read all, and describe the project."""
         model = self.model
         products = _geometry.products_with_surfaces(model)
-        shapes = _geometry.shapes_of(model, [*products, *model.of_class("IfcSpace")])
+        cut = _geometry.openings_of(model, products)
+        openings = [opening for those in cut.values() for opening in those]
+        asked = [*products, *model.of_class("IfcSpace"), *openings]
+        shapes = _geometry.shapes_of(model, asked)
+        _geometry.tell_uncut(model, cut, shapes)
+        hollow = {opening.id() for opening in openings}
+        shapes = {number: shape for number, shape in shapes.items() if number not in hollow}
         known = _spaces.spaces_of(model, shapes)
         bodies = {number: shape for number, shape in shapes.items() if not _is_space(shape)}
         _geometry.tell_missing(model, products, bodies)
@@ -242,7 +248,7 @@ class _Import:
         return origin
 
     def _head(self, chosen: list[Space], taken: dict[int, Shape]) -> list[str]:
-        name = " ".join(os.path.basename(self.model.name).split())
+        name = _surfaces.obj_name(os.path.basename(self.model.name))
         return [
             f"Made of the {self.model.schema} model {name} by quasilux.ifc:",
             f"{len(taken)} products, {len(chosen)} spaces.",
