@@ -192,7 +192,8 @@ def test_distributions_that_leave_out_nadir_are_told(tmp_path: Path) -> None:
 
 def test_items_that_map_items_without_end_are_bounded(tmp_path: Path) -> None:
     model = bare_room()
-    items = [model.make("IfcLightSourceAmbient", "A", model.make("IfcColourRgb", None, 1.0, 1.0, 1.0))]
+    colour = model.make("IfcColourRgb", None, 1.0, 1.0, 1.0)
+    items = [model.make("IfcLightSourceAmbient", "A", colour)]
     origin = model.make("IfcCartesianPoint", [0.0, 0.0, 0.0])
     same = model.make("IfcCartesianTransformationOperator3D", None, None, origin, None, None)
     # 8^8 ways to the source.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import os
 import pickle
 import random
@@ -11,19 +12,16 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from files import ROOT, command_line
+from ifc_models import Builder
+from test_ifc_rooms import found, lamp_file, load
 
-pytest.importorskip("ifcopenshell")
-
-from files import ROOT, command_line  # noqa: E402
-from ifc_models import Builder  # noqa: E402
-from test_ifc_rooms import found, lamp_file, load  # noqa: E402
-
-import quasilux  # noqa: E402
-from quasilux import ifc  # noqa: E402
-from quasilux.ifc import __main__ as program  # noqa: E402
-from quasilux.ifc import _care, _geometry, _imported, _isolated, _load  # noqa: E402
-from quasilux.ifc._mapping import read_mapping  # noqa: E402
-from quasilux.ifc._surfaces import GLASS_TRANSMITTANCE, REFLECTANCES  # noqa: E402
+import quasilux
+from quasilux import ifc
+from quasilux.ifc import __main__ as program
+from quasilux.ifc import _care, _geometry, _imported, _isolated, _load
+from quasilux.ifc._mapping import read_mapping
+from quasilux.ifc._surfaces import GLASS_TRANSMITTANCE, REFLECTANCES
 
 
 def room() -> Builder:
@@ -87,7 +85,8 @@ def test_products_without_surfaces_are_told(tmp_path: Path) -> None:
 
 def test_models_without_spaces_or_surfaces(tmp_path: Path) -> None:
     empty = Builder()
-    with pytest.raises(quasilux.InputError, match="no element with surfaces .it has none.; expected"):
+    expected = "no element with surfaces .it has none.; expected"
+    with pytest.raises(quasilux.InputError, match=expected):
         load(empty, tmp_path)
     with pytest.raises(quasilux.InputError, match='no space "1"; the model has no spaces'):
         load(empty, tmp_path, space="1")
@@ -111,7 +110,7 @@ def test_models_without_spaces_or_surfaces(tmp_path: Path) -> None:
         ('[luminaires.A]\nphotometry = "a.ies"\nturn = 1\n', "has the key turn; expected one of"),
         ('[luminaires.A]\nphotometry = "a.ies"\naim = [1, 2]\n', r"expected \[x, y, z\]"),
         ('[luminaires."*"]\nphotometry = "missing.ies"\n', "missing.ies: No such file"),
-        ("[materials.IfcWall]\nreflectanse = 1\n", "did you mean|expected|reflectance"),
+        ("[materials.IfcWall]\nreflectanse = 1\n", 'did you mean "?reflectance'),
         ('[materials.IfcWall]\nkind = "bsdf"\nfile = "missing.xml"\n', "missing.xml: No such file"),
     ],
 )
@@ -126,7 +125,7 @@ def test_mappings_that_are_wrong_are_refused(text: str, message: str, tmp_path: 
 
 def test_the_mapping_of_the_page_is_one() -> None:
     page = (ROOT / "docs/from-ifc.md").read_text(encoding="utf-8")
-    parser = pytest.importorskip("tomllib" if sys.version_info >= (3, 11) else "tomli")
+    parser = importlib.import_module("tomllib" if sys.version_info >= (3, 11) else "tomli")
     mapping = read_mapping(parser.loads(page.split("```toml\n")[1].split("```")[0]))
     assert len(mapping.materials) == 4 and len(mapping.luminaires) == 2
     for role, value in (*REFLECTANCES.items(), ("pane of transmittance", GLASS_TRANSMITTANCE)):
@@ -178,7 +177,8 @@ def test_the_program_names_the_command_of_python(tmp_path: Path) -> None:
         said = refused(*words)
         assert "python -m quasilux.ifc" in said, said
     light = '[[lights]]\nkind = "point"\nposition = [0, 0, 2]\nintensity_cd = 100\n'
-    sensor = '[[sensors]]\nname = "s"\nkind = "points"\npoints = [[0, 0, 1]]\nnormals = [[0, 0, 1]]\n'
+    points = "points = [[0, 0, 1]]\nnormals = [[0, 0, 1]]\n"
+    sensor = f'[[sensors]]\nname = "s"\nkind = "points"\n{points}'
     (tmp_path / "p.toml").write_text(f'[scene]\ngeometry = ["model.ifc"]\n{light}{sensor}')
     assert "python -m quasilux.ifc" in refused("check", tmp_path / "p.toml")
 
@@ -237,6 +237,7 @@ def test_a_process_ends_at_its_limits(tmp_path: Path, monkeypatch: pytest.Monkey
         ifc.load(path)
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="has no named pipes in folders")
 def test_a_process_ends_with_its_parent(tmp_path: Path) -> None:
     """The other process runs as long as its standard input is open, and not in its folder."""
     (tmp_path / "numpy.py").write_text("raise ImportError('taken from the folder')")
@@ -274,6 +275,7 @@ def test_the_last_product_is_not_blamed_for_what_comes_later(
     assert not progress.exists()
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="links ask for rights there")
 def test_links_and_odd_names_are_not_written_through(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -300,6 +302,7 @@ def test_links_and_odd_names_are_not_written_through(
     assert list((tmp_path / "out").iterdir()) == []
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="has no such names")
 def test_models_of_odd_names_make_projects(tmp_path: Path) -> None:
     path = room().write(tmp_path)
     for name in ("x" * 246 + ".ifc", "a\x01b.ifc"):

@@ -7,14 +7,11 @@ from typing import Any
 
 import numpy as np
 import pytest
+from ifc_models import ROOM, SCHEMAS, Builder
+from test_ifc_rooms import found, lamp_file, load
 
-pytest.importorskip("ifcopenshell")
-
-from ifc_models import ROOM, SCHEMAS, Builder  # noqa: E402
-from test_ifc_rooms import found, lamp_file, load  # noqa: E402
-
-import quasilux  # noqa: E402
-from quasilux import ifc  # noqa: E402
+import quasilux
+from quasilux import ifc
 
 WIDTH, DEPTH, HEIGHT = ROOM
 BLACK = {"*": {"reflectance": 0.0}}
@@ -141,6 +138,7 @@ def test_sources_that_cannot_be_used_are_told(tmp_path: Path) -> None:
     even = {0.0: 3.0, 180.0: 3.0}
     cases = [
         (model.distribution({0.0: even}), "not plausible in any of cd/lm, cd/klm and cd"),
+        (model.distribution({0.0: even}, "TYPE_A"), "a goniometric source of TYPE_A is left out"),
         (model.distribution({0.0: even}, "TYPE_B"), "a goniometric source of TYPE_B is left out"),
         (model.distribution({0.0: {0.0: -80.0, 180.0: 80.0}}), "makes no luminaire"),
         (model.make("IfcDocumentReference", "../lamp.ldt"), 'the file "../lamp.ldt"'),

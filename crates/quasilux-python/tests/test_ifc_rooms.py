@@ -7,14 +7,11 @@ from typing import Any
 
 import numpy as np
 import pytest
+from ifc_models import DOOR, PANE, ROOM, SCHEMAS, WALL, WINDOW, Builder
 
-pytest.importorskip("ifcopenshell")
-
-from ifc_models import DOOR, PANE, ROOM, SCHEMAS, WALL, WINDOW, Builder  # noqa: E402
-
-import quasilux  # noqa: E402
-from quasilux import ifc  # noqa: E402
-from quasilux.ifc import _glass, _load, _survey  # noqa: E402
+import quasilux
+from quasilux import ifc
+from quasilux.ifc import _glass, _load, _survey
 
 WIDTH, DEPTH, HEIGHT = ROOM
 
@@ -285,16 +282,8 @@ def test_double_panes_are_one_sheet_and_rods_are_none() -> None:
 def test_workplanes_stay_under_a_roof_and_out_of_furniture(tmp_path: Path) -> None:
     model = Builder()
     # An attic 8 m wide and 2 m high in its middle: 0.75 m high from 1.5 m to 6.5 m.
-    points = [model.make("IfcCartesianPoint", [x, z]) for x, z in ((0.0, 0.0), (8.0, 0.0), (4.0, 2.0))]
-    profile = model.make(
-        "IfcArbitraryClosedProfileDef", "AREA", None, model.make("IfcPolyline", [*points, points[0]])
-    )
-    axes = model.axes((0, 6, 0), z=(0, -1, 0), x=(1, 0, 0))
-    along = model.make("IfcDirection", [0.0, 0.0, 1.0])
-    attic = model.root("IfcSpace", "Attic")
-    model.placed(attic, (0, 0, 0))
-    model.relate("IfcRelAggregates", model.storey, [attic])
-    model.shaped(attic, [model.make("IfcExtrudedAreaSolid", profile, axes, along, 6.0)])
+    attic = model.space("Attic", (1, 1, 1), (0, 0, 0))
+    model.shaped(attic, [model.prism([(0, 0), (8, 0), (4, 2)], (0, 6, 0), 6)])
     model.element("IfcSlab", "Floor", [model.box((8, 6, 0.2), (0, 0, -0.2))])
     # A room with a desk that is higher than the workplane.
     model.space("Desk", (4, 3, 2.5), (20, 0, 0))
@@ -317,17 +306,8 @@ def test_workplanes_stay_under_a_roof_and_out_of_furniture(tmp_path: Path) -> No
 
 def test_a_sloping_floor_is_told(tmp_path: Path) -> None:
     model = Builder()
-    points = [(0.0, 0.0), (8.0, 1.0), (8.0, 4.0), (0.0, 4.0)]
-    line = [model.make("IfcCartesianPoint", list(point)) for point in points]
-    profile = model.make(
-        "IfcArbitraryClosedProfileDef", "AREA", None, model.make("IfcPolyline", [*line, line[0]])
-    )
-    axes = model.axes((0, 6, 0), z=(0, -1, 0), x=(1, 0, 0))
-    along = model.make("IfcDirection", [0.0, 0.0, 1.0])
-    hall = model.root("IfcSpace", "Hall")
-    model.placed(hall, (0, 0, 0))
-    model.relate("IfcRelAggregates", model.storey, [hall])
-    model.shaped(hall, [model.make("IfcExtrudedAreaSolid", profile, axes, along, 6.0)])
+    hall = model.space("Hall", (1, 1, 1), (0, 0, 0))
+    model.shaped(hall, [model.prism([(0, 0), (8, 1), (8, 4), (0, 4)], (0, 6, 0), 6)])
     model.element("IfcSlab", "Roof", [model.box((8, 6, 0.2), (0, 0, 4))])
     imported = load(model, tmp_path)
     assert found(imported, "the floor is not level")

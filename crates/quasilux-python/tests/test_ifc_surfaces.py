@@ -22,18 +22,6 @@ def bare_room() -> Builder:
     return model
 
 
-def prism(
-    model: Builder, corners: Sequence[tuple[float, float]], at: Sequence[float], depth: float
-) -> Any:
-    """An outline in x and z, extruded towards -y."""
-    points = [model.make("IfcCartesianPoint", [float(x), float(z)]) for x, z in corners]
-    line = model.make("IfcPolyline", [*points, points[0]])
-    profile = model.make("IfcArbitraryClosedProfileDef", "AREA", None, line)
-    along = model.make("IfcDirection", [0.0, 0.0, 1.0])
-    axes = model.axes(at, z=(0, -1, 0), x=(1, 0, 0))
-    return model.make("IfcExtrudedAreaSolid", profile, axes, along, float(depth))
-
-
 def tube(model: Builder) -> Any:
     """A curtain of 4 mm around a circle."""
     centre = model.make("IfcAxis2Placement2D", model.make("IfcCartesianPoint", [0.0, 0.0]))
@@ -86,7 +74,7 @@ def test_panes_beside_one_another_stay(tmp_path: Path) -> None:
     model.element(
         "IfcWindow",
         "Gable",
-        [model.styled(prism(model, half, (5, 0, 0), 0.006), "Glass", 0.8) for half in halves],
+        [model.styled(model.prism(half, (5, 0, 0), 0.006), "Glass", 0.8) for half in halves],
     )
     assert sum(glass_of(load(model, tmp_path)).values()) == pytest.approx(1.95**2)
 

@@ -202,8 +202,8 @@ def _centre(
     """The photometric centre in coordinates of the fixture, in m.
 
     It is the origin, where that is at the side of the body that the light leaves, mostly the lower
-    one; else the middle of that side: an origin at the ceiling is not where a pendant shines, and one above the body of a
-    recessed luminaire is above the ceiling.
+    one; else the middle of that side: an origin at the ceiling is not where a pendant shines, and
+    one above the body of a recessed luminaire is above the ceiling.
     """
     local = (shape.corners.reshape(-1, 3) - fixture.frame[:3, 3]) @ turn
     low, high = local.min(axis=0), local.max(axis=0)

@@ -8,7 +8,7 @@ the whole glazing.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -104,7 +104,7 @@ def _foremost(facets: Floats, normal: Floats) -> Floats:
     layers = sorted(np.unique(layer), reverse=True)
     if len(layers) == 1 or len(layers) > _MOST_LAYERS:
         return facets
-    flat = shapely.polygons(facets @ _plane(normal).T)
+    flat: Any = shapely.polygons(facets @ _plane(normal).T)
     is_kept = np.zeros(len(facets), dtype=bool)
     covered = shapely.Polygon()
     for number in layers:
