@@ -141,6 +141,7 @@ def test_sources_that_cannot_be_used_are_told(tmp_path: Path) -> None:
         (model.distribution({0.0: even}, "TYPE_A"), "a goniometric source of TYPE_A is left out"),
         (model.distribution({0.0: even}, "TYPE_B"), "a goniometric source of TYPE_B is left out"),
         (model.distribution({0.0: {0.0: -80.0, 180.0: 80.0}}), "makes no luminaire"),
+        (model.distribution({0.0: {}}), "a plane has no angles"),
         (model.make("IfcDocumentReference", "../lamp.ldt"), 'the file "../lamp.ldt"'),
         (model.make("IfcDocumentReference", "https://example.com/lamp.ldt"), "in the folder of"),
         (model.make("IfcDocumentReference", "missing.ies"), 'the file "missing.ies"'),

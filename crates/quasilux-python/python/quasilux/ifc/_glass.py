@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from quasilux.ifc._solids import body_of
+from quasilux.ifc._solids import bodies
 
 if TYPE_CHECKING:
     from quasilux.ifc._geometry import Floats
@@ -69,8 +69,7 @@ def sheets_of(corners: Floats, *, thickness_m: float = MOST_THICKNESS_M) -> Shee
 
 def bodies_of(corners: Floats) -> list[Floats]:
     """Return the triangles of each body by itself."""
-    number = body_of(corners)
-    return [corners[number == body] for body in np.unique(number)]
+    return [corners[body] for body in bodies(corners)]
 
 
 def _sheet(corners: Floats, thickness_m: float) -> Sheet | None:

@@ -15,8 +15,14 @@ if TYPE_CHECKING:
 _WELD_M = 1e-6
 
 
-def body_of(corners: Floats) -> NDArray[np.int64]:
-    """Return the number of the body that each triangle is of: bodies share no corners."""
+def bodies(corners: Floats) -> list[NDArray[np.intp]]:
+    """Return the numbers of the triangles of each body: bodies share no corners."""
+    body_of = _body_of(corners)
+    order = np.argsort(body_of, kind="stable")
+    return np.split(order, np.flatnonzero(np.diff(body_of[order])) + 1)
+
+
+def _body_of(corners: Floats) -> NDArray[np.int64]:
     triangles = _welded(corners)
     # The lowest number among connected corners, by repeated halving of the way to it.
     parent = np.arange(triangles.max() + 1)
@@ -45,20 +51,19 @@ def is_closed(corners: Floats) -> bool:
 def outward(shape: Shape) -> Shape:
     """Return a shape whose closed bodies face outward; hollows within others stay as they are."""
     corners = shape.corners
-    number = body_of(corners)
     is_turned = np.zeros(len(corners), dtype=bool)
     around: list[Floats] = []
-    inward: list[NDArray[np.bool_]] = []
-    for body in np.unique(number):
-        chosen = number == body
-        if volume_m3(corners[chosen]) >= 0:
-            around.append(_box(corners[chosen]))
-        elif is_closed(corners[chosen]):
-            inward.append(chosen)
-    for chosen in inward:
-        low, high = _box(corners[chosen])
-        if not any((low >= box[0]).all() and (high <= box[1]).all() for box in around):
-            is_turned |= chosen
+    inward: list[NDArray[np.intp]] = []
+    for body in bodies(corners):
+        if volume_m3(corners[body]) >= 0:
+            around.append(_box(corners[body]))
+        elif is_closed(corners[body]):
+            inward.append(body)
+    boxes = np.array(around).reshape(-1, 2, 3)
+    for body in inward:
+        low, high = _box(corners[body])
+        is_around = (boxes[:, 0] <= low).all(axis=1) & (boxes[:, 1] >= high).all(axis=1)
+        is_turned[body] = not is_around.any()
     if not is_turned.any():
         return shape
     turned = np.where(is_turned[:, None, None], corners[:, ::-1], corners)

@@ -342,6 +342,8 @@ def _table(distribution: Any, unit_deg: float) -> tuple[Floats, Floats, Floats]:
         intensity = np.array(plane.LuminousIntensity, dtype=float)
         if gamma.shape != intensity.shape or gamma.ndim != 1:
             raise ValueError(f"{gamma.size} angles and {intensity.size} intensities in a plane")
+        if not gamma.size:
+            raise ValueError("a plane has no angles")
         count += gamma.size
         if count > _MOST_VALUES:
             raise ValueError(f"more than {_MOST_VALUES} intensities")
