@@ -12,7 +12,7 @@ from ifc_models import Builder
 from test_ifc_rooms import area_m2, found, load
 
 from quasilux import ifc
-from quasilux.ifc import _geometry, _glass, _model
+from quasilux.ifc import _geometry, _glass, _model, _openings
 from quasilux.ifc._findings import Findings
 
 
@@ -173,9 +173,9 @@ def test_openings_that_the_kernel_passes_over_are_told(tmp_path: Path) -> None:
     opening = model.opening(wall, (1, 0.6, 1), (1, -0.4, 1))
     assert not found(load(model, tmp_path), "an opening")
     again = _model.Model(tmp_path / "model.ifc", Findings())
-    openings = _geometry.openings_of(again, again.of_class("IfcWall"))
+    openings = _openings.openings_of(again, again.of_class("IfcWall"))
     own = _geometry.shapes_of(again, again.of_class("IfcOpeningElement"))
     # The wall as it was without its opening.
-    _geometry.tell_uncut(again, openings, {**whole, **own})
+    _openings.tell_uncut(again, openings, {**whole, **own})
     (finding,) = again.findings.all()
     assert "does not cut" in finding.message and opening.GlobalId in finding.places[0]

@@ -15,6 +15,7 @@ from quasilux.ifc import (
     _fixtures,
     _geometry,
     _model,
+    _openings,
     _site,
     _sources,
     _spaces,
@@ -102,11 +103,11 @@ class _Import:
         """Read all, and describe the project."""
         model = self.model
         products = _geometry.products_with_surfaces(model)
-        cut = _geometry.openings_of(model, products)
+        cut = _openings.openings_of(model, products)
         openings = [opening for those in cut.values() for opening in those]
         asked = [*products, *model.of_class("IfcSpace"), *openings]
         shapes = _geometry.shapes_of(model, asked)
-        _geometry.tell_uncut(model, cut, shapes)
+        _openings.tell_uncut(model, cut, shapes)
         hollow = {opening.id() for opening in openings}
         shapes = {number: shape for number, shape in shapes.items() if number not in hollow}
         known = _spaces.spaces_of(model, shapes)
