@@ -9,6 +9,8 @@ pub enum FileKind {
     Geometry,
     /// A Honeybee model.
     Model,
+    /// A Radiance scene, or data, points and views that go with one.
+    Radiance,
     /// Wavefront MTL.
     MaterialLibrary,
     /// A buffer of a glTF file.
@@ -31,9 +33,10 @@ pub enum FileKind {
 
 impl FileKind {
     /// All kinds.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::Geometry,
         Self::Model,
+        Self::Radiance,
         Self::MaterialLibrary,
         Self::Buffer,
         Self::Photometry,
@@ -51,7 +54,7 @@ impl FileKind {
         match self {
             Self::Geometry | Self::Buffer => 2 << 30,
             Self::Panorama => 1 << 30,
-            Self::Bsdf | Self::Model => 256 << 20,
+            Self::Bsdf | Self::Model | Self::Radiance => 256 << 20,
             Self::MaterialLibrary | Self::Photometry | Self::Weather => 64 << 20,
             Self::Glazing | Self::Schedule => 16 << 20,
             Self::Tilt => 1 << 20,
@@ -108,4 +111,12 @@ pub(crate) fn read(files: &dyn Files, path: &str, kind: FileKind) -> io::Result<
     let bytes = files.read(path, kind)?;
     let max_bytes = kind.max_bytes();
     if bytes.len() as u64 > max_bytes { Err(too_large(max_bytes)) } else { Ok(bytes) }
+}
+
+/// Why a file cannot be read, in the words of no particular system.
+pub(crate) fn reason(error: &io::Error) -> String {
+    match error.kind() {
+        io::ErrorKind::NotFound => "no such file".to_owned(),
+        _ => error.to_string().replace('\n', "; "),
+    }
 }

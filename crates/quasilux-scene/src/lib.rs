@@ -23,6 +23,7 @@ pub mod load;
 pub mod mesh;
 mod nearest;
 pub mod project;
+mod radiance;
 pub mod rgb;
 pub mod scene;
 pub mod sensor;
@@ -40,7 +41,9 @@ pub use export::{Exported, ExportedFile, export_radiance};
 pub use files::{FileKind, Files, TriangleArrays, too_large};
 pub use geometry::ifc_advice;
 pub use glam::DVec3;
-pub use import::{ImportTerms, Imported, ImportedFile, import_honeybee};
+pub use import::{
+    ImportTerms, Imported, ImportedFile, RadianceTerms, import_honeybee, import_radiance,
+};
 pub use light::Light;
 pub use load::{Loaded, Places, load};
 pub use mesh::Mesh;

@@ -1,13 +1,12 @@
 //! The surfaces of a Honeybee model, with what they are made of.
 
-use super::FileScattering;
-use super::builder::{Look as FileLook, MeshBuilder, TriangleError};
+use super::builder::{MeshBuilder, TriangleError};
 use super::cut::HoleCutter;
-use crate::honeybee::{
-    Face3D, Findings, Look, Mesh3D, Model, Point, Shape, Surface, Surfaces, surfaces,
-};
+use super::looks;
+use crate::honeybee::{Face3D, Mesh3D, Model, Point, Shape, Surface, Surfaces, surfaces};
 use crate::project::{Project, UpAxis};
-use crate::{LoadError, Rgb, Warning};
+use crate::radiance::Findings;
+use crate::{LoadError, Warning};
 use glam::DVec3;
 
 /// Coordinates beyond it are far beyond what geometry may have in any unit, and far from overflow.
@@ -52,37 +51,13 @@ fn read_surfaces(
     builder.measure_file_in(UpAxis::Z, model.unit().metres());
     let numbers: Vec<u32> = materials.iter().map(|(name, _)| builder.material(name)).collect();
     for (&number, (name, look)) in numbers.iter().zip(materials) {
-        describe(number, &name, look, builder, warnings);
+        looks::describe(number, &name, look, builder, warnings);
     }
     let mut reader = Reader { builder, cutter: HoleCutter::new(), findings };
     for surface in &surfaces {
         reader.surface(surface, numbers[surface.material])?;
     }
     Ok(groups.len())
-}
-
-/// Notes what a material is made of.
-fn describe(
-    number: u32,
-    name: &str,
-    look: Look,
-    builder: &mut MeshBuilder,
-    warnings: &mut Vec<Warning>,
-) {
-    let scattering = match look {
-        Look::Surface(bsdf) => FileScattering::Described(bsdf),
-        Look::Sheet { name, xml, up } => FileScattering::Sheet { name, xml, up },
-        Look::Unknown(refusal) => FileScattering::Unknown(format!(
-            "{refusal}, or [materials.{name:?}] in the project file"
-        )),
-        Look::Light(_) => {
-            let look = FileLook { reflectance: Rgb::BLACK, emits: true, is_clear: false };
-            return builder.describe(number, look, warnings);
-        }
-        // There is nothing of it.
-        Look::Open => return,
-    };
-    builder.describe_scattering(number, scattering, warnings);
 }
 
 /// Tells of what a model has beside surfaces, and the project has nothing of.

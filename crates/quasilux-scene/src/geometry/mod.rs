@@ -1,4 +1,5 @@
-//! Geometry: OBJ and glTF files, Honeybee models and arrays to one mesh with shared vertices.
+//! Geometry: OBJ and glTF files, Honeybee models, Radiance scenes and arrays to one mesh with shared
+//! vertices.
 //!
 //! Each reader hands its triangles to one [`MeshBuilder`], which turns them up, merges vertices at
 //! exactly the same position, and counts the degenerate triangles that it drops.
@@ -17,17 +18,22 @@ mod gltf_elements;
 mod gltf_primitive;
 mod gltf_sparse;
 mod honeybee;
+mod looks;
 mod mtl;
 mod obj;
 mod obj_lines;
 mod polygon;
+mod radiance;
+mod seams;
 
+pub(crate) use crate::files::reason;
 use crate::project::{Project, UpAxis};
 use crate::{Bsdf, FileKind, Files, LoadError, Mesh, Rgb, Spanned, Warning, files as reading};
 use builder::MeshBuilder;
 pub use elsewhere::ifc_advice;
 use glam::DVec3;
 pub(crate) use honeybee::look_over;
+pub(crate) use radiance::look_over_radiance;
 use std::sync::Arc;
 
 /// The name that triangles without a material get.
@@ -85,6 +91,7 @@ enum GeometryFormat {
     Obj,
     Gltf,
     Honeybee,
+    Radiance,
 }
 
 impl GeometryFormat {
@@ -95,6 +102,7 @@ impl GeometryFormat {
             "obj" => Some(Self::Obj),
             "gltf" | "glb" => Some(Self::Gltf),
             "hbjson" => Some(Self::Honeybee),
+            "rad" | "mat" => Some(Self::Radiance),
             _ => None,
         }
     }
@@ -103,6 +111,7 @@ impl GeometryFormat {
         match self {
             Self::Obj | Self::Gltf => FileKind::Geometry,
             Self::Honeybee => FileKind::Model,
+            Self::Radiance => FileKind::Radiance,
         }
     }
 }
@@ -122,11 +131,28 @@ pub(crate) fn read(
             continue;
         }
         let format = GeometryFormat::of_name(&file.value).ok_or_else(|| {
-            let other =
-                "no geometry file; expected a name that ends in .obj, .gltf, .glb or .hbjson";
+            let other = "no geometry file; expected a name that ends in .obj, .gltf, .glb, \
+                         .hbjson, .rad or .mat";
             let what = ifc_advice(&file.value).unwrap_or_else(|| other.to_owned());
             project.error(file.place, format!("\"{}\" is {what}", file.value))
         })?;
+        if format == GeometryFormat::Radiance {
+            // All of them are one scene, which is read at the first.
+            let is_scene = |it: &&Spanned<String>| {
+                GeometryFormat::of_name(&it.value) == Some(GeometryFormat::Radiance)
+            };
+            let scene: Vec<&Spanned<String>> = project.geometry.iter().filter(is_scene).collect();
+            if scene[0].value == file.value {
+                for file in &scene {
+                    read_file(project, file, files, format.kind())?;
+                }
+                let names: Vec<&str> = scene.iter().map(|it| it.value.as_str()).collect();
+                builder.start_file(names[0]);
+                radiance::read(&names, project, files, &mut builder, warnings)?;
+                builder.finish_file(warnings)?;
+            }
+            continue;
+        }
         let bytes = read_file(project, file, files, format.kind())?;
         quasilux_text::refuse_web_page(&bytes).map_err(|error| {
             LoadError::new(&file.value, Some(error.position()), error.message())
@@ -144,6 +170,7 @@ pub(crate) fn read(
             GeometryFormat::Honeybee => {
                 honeybee::read(&bytes, project, &mut builder, warnings)?;
             }
+            GeometryFormat::Radiance => {}
         }
         builder.finish_file(warnings)?;
     }
@@ -172,14 +199,6 @@ pub(crate) fn read_file(
             format!("cannot read \"{}\": {reason}; expected a readable file", name.value),
         )
     })
-}
-
-/// Why a file cannot be read, in the words of no particular system.
-pub(crate) fn reason(error: &std::io::Error) -> String {
-    match error.kind() {
-        std::io::ErrorKind::NotFound => "no such file".to_owned(),
-        _ => error.to_string().replace('\n', "; "),
-    }
 }
 
 /// The path of a file that `of` names relative to itself.

@@ -3,10 +3,10 @@
 //! State 0 is how the scene is. What changes has a material of its own in the scene, so that each
 //! state is what materials are in it, and which shades there are beside.
 
-use super::look::{Look, invisible};
 use super::shapes::Face3D;
 use crate::Bsdf;
 use crate::bsdf::Diffuse;
+use crate::radiance::{Look, invisible};
 
 /// A group, its states behind the first as changes of the scene.
 #[derive(Debug)]

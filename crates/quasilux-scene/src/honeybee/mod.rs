@@ -8,8 +8,6 @@
 
 mod defaults;
 mod document;
-mod findings;
-mod glass;
 mod groups;
 mod look;
 mod model;
@@ -22,9 +20,7 @@ mod surfaces;
 mod views;
 
 pub(crate) use document::Point;
-pub(crate) use findings::Findings;
 pub(crate) use groups::{Group, GroupState, StateShade};
-pub(crate) use look::Look;
 pub(crate) use model::Model;
 pub(crate) use radiance::{Luminaire, LuminaireInstance, SensorGrid, View};
 pub(crate) use shapes::{Face3D, Mesh3D};

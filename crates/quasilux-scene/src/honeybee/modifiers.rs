@@ -2,11 +2,11 @@
 //! Honeybee's own.
 
 use super::defaults;
-use super::findings::Findings;
 use super::model::Model;
 use super::radiance::{ModelRadiance, Modifier, ModifierSet, Named, Sides};
 use super::slots::Slot;
 use crate::LoadError;
+use crate::radiance::Findings;
 use std::collections::HashMap;
 
 /// Name by which models call Honeybee's own set, which is in no file.

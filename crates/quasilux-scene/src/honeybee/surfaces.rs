@@ -2,9 +2,8 @@
 
 mod states;
 
-use super::findings::Findings;
 use super::groups::Group;
-use super::look::{Look, look};
+use super::look::look;
 use super::model::{Aperture, Boundary, Door, Face, FaceType, Model, Room, Shade};
 use super::modifiers::Modifiers;
 use super::names::Names;
@@ -12,6 +11,7 @@ use super::radiance::{Modifier, ModifierSet, SubFaceRadiance};
 use super::shapes::{Face3D, Mesh3D};
 use super::slots::Slot;
 use crate::LoadError;
+use crate::radiance::{Findings, Look};
 use states::StateMaterial;
 use std::collections::HashMap;
 

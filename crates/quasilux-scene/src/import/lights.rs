@@ -2,7 +2,8 @@
 
 use super::Writer;
 use super::text::{number, quoted};
-use crate::honeybee::{Look, Surfaces};
+use crate::honeybee::Surfaces;
+use crate::radiance::Look;
 
 impl Writer<'_> {
     /// Writes a light for each modifier that shines; their number.

@@ -3,7 +3,7 @@
 use super::Writer;
 use super::text::{number, quoted, vector};
 use crate::bsdf::{AngularTable, Conductor, Diffuse, Mirror, Pane, Plastic, Translucent};
-use crate::honeybee::Look;
+use crate::radiance::Look;
 use crate::{Bsdf, Rgb};
 
 impl Writer<'_> {

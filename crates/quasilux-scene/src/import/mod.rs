@@ -9,14 +9,17 @@ mod lights;
 mod luminaires;
 mod materials;
 mod names;
+mod radiance;
 mod states;
 mod text;
 mod views;
 
 use crate::geometry::look_over;
-use crate::honeybee::{Findings, Model, Surfaces, surfaces};
+use crate::honeybee::{Model, Surfaces, surfaces};
+use crate::radiance::Findings;
 use crate::{LengthUnit, LoadError, Warning};
 use names::Names;
+pub use radiance::{RadianceTerms, import_radiance};
 use std::collections::HashMap;
 use text::{Text, quoted};
 

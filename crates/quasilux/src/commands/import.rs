@@ -6,18 +6,14 @@ use crate::heartbeat::Heartbeat;
 use crate::print::tell;
 use crate::project::Project;
 use crate::results;
-use crate::source::{Source, folder_of, import as import_model, is_model};
-use quasilux_scene::{Imported, ImportedFile, Warning, ifc_advice};
+use crate::source::{Model, Source, folder_of};
+use quasilux_scene::{Imported, ImportedFile, Warning};
 use std::path::Path;
 
 /// Writes the project and what it names, and says what of the model is not in it.
 pub(crate) fn import(arguments: &ImportArguments) -> Result<Exit, CliError> {
-    let ImportArguments { model, out, weather } = arguments;
-    if !is_model(model) {
-        let other = "no model that can be read; expected a name that ends in .hbjson";
-        let message = ifc_advice(&model.to_string_lossy()).unwrap_or_else(|| other.to_owned());
-        return Err(CliError::in_file(model.display(), None, message));
-    }
+    let ImportArguments { models, out, weather, points, views } = arguments;
+    let model = Model::of(models, points, views)?;
     if out.exists() {
         let message = "is there already; give --out another name, or remove it";
         return Err(CliError::in_file(out.display(), None, message));
@@ -25,8 +21,7 @@ pub(crate) fn import(arguments: &ImportArguments) -> Result<Exit, CliError> {
     let folder = folder_of(out);
     let stem = out.file_stem().unwrap_or_default().to_string_lossy();
     let weather = weather.as_deref();
-    let Imported { text, files, findings, measures } =
-        import_model(model, weather, &folder, &stem)?;
+    let Imported { text, files, findings, measures } = model.import(weather, &folder, &stem)?;
     let beside = |file: &ImportedFile| folder.join(&file.name);
     if let Some(taken) = files.iter().map(beside).find(|path| path.exists()) {
         let message = "is there already, and the project would have a file of this name; give \
@@ -34,7 +29,7 @@ pub(crate) fn import(arguments: &ImportArguments) -> Result<Exit, CliError> {
         return Err(CliError::in_file(taken.display(), None, message));
     }
     // Nothing is written of a project that cannot be loaded.
-    let warnings = if measures { warnings_of(model, weather)? } else { findings };
+    let warnings = if measures { warnings_of(&model, weather)? } else { findings };
     if !folder.as_os_str().is_empty() {
         results::prepare(&folder)?;
     }
@@ -47,7 +42,7 @@ pub(crate) fn import(arguments: &ImportArguments) -> Result<Exit, CliError> {
 }
 
 /// Warnings of a model as a project, which has to load.
-fn warnings_of(model: &Path, weather: Option<&Path>) -> Result<Vec<Warning>, CliError> {
-    let _signs_of_life = Heartbeat::new(&format!("reading {}", model.display()));
+fn warnings_of(model: &Model, weather: Option<&Path>) -> Result<Vec<Warning>, CliError> {
+    let _signs_of_life = Heartbeat::new(&format!("reading {}", model.path().display()));
     Ok(Project::load(Source::of_model(model, weather)?)?.loaded.warnings)
 }

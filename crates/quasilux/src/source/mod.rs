@@ -9,7 +9,7 @@ pub(crate) mod bundle;
 mod model;
 
 pub use arrays::Triangles;
-pub(crate) use model::{folder_of, import, is_model};
+pub(crate) use model::{Model, folder_of, is_model};
 
 use crate::digest::{SceneFile, SceneIdentity, sha256_hex};
 use crate::exit::CliError;
@@ -89,7 +89,7 @@ impl Source {
         }
         let source = match bundle::read(path).map_err(|error| refuse(&error))? {
             Some(bytes) => bundle::unpacked(&bytes).map_err(|what| refuse(&what))?,
-            None if is_model(path) => return Self::of_model(path, None),
+            None if is_model(path) => return Self::of_model(&Model::at(path), None),
             None => {
                 let text = input::read(path, input::MAX_PROJECT_BYTES);
                 let text = text.map_err(|error| refuse(&error))?;

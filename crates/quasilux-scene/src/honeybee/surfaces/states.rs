@@ -1,12 +1,12 @@
 //! States of things: what of a group changes alike, and the shades of each state.
 
 use super::super::groups::{StateShade, in_place};
-use super::super::look::Look;
 use super::super::names::plain;
 use super::super::radiance::{Modifier, State, SubFaceRadiance};
 use super::super::slots::Slot;
 use super::{Collector, Group, Shape, Thing};
 use crate::LoadError;
+use crate::radiance::Look;
 
 /// Most states of a thing: those that a group of blinds has, and the first one.
 const MAX_STATES: usize = 17;

@@ -17,7 +17,7 @@ use crate::exit::{CliError, Exit};
 use crate::interrupt;
 use crate::print::print;
 use crate::project::{self, Project};
-use crate::source::{Source, is_model};
+use crate::source::{Model, Source, is_model};
 use crate::year_file::{YearHeading, YearWriter};
 use honeybee::HoneybeeFolder;
 pub(crate) use in_memory::year_in_memory;
@@ -116,7 +116,7 @@ fn open(arguments: &AnnualArguments) -> Result<Project, CliError> {
             "--checkpoint goes with a project file; make one of the model and its weather with \
              `quasilux import`",
         ),
-        (true, Some(weather)) => Project::load(Source::of_model(file, Some(weather))?),
+        (true, Some(weather)) => Project::load(Source::of_model(&Model::at(file), Some(weather))?),
     }
 }
 

@@ -10,7 +10,7 @@ use crate::bsdf::{AngularNode, AngularTable, Pane};
 use std::f64::consts::FRAC_PI_2;
 
 /// The refractive index where none is given.
-pub(super) const INDEX: f64 = 1.52;
+pub(crate) const INDEX: f64 = 1.52;
 
 /// Steps of the tables from the normal to the horizon: 2 degrees, 1 beyond 60 degrees. The lines
 /// between them are off by less than 0.001 up to 85 degrees.
@@ -23,7 +23,7 @@ struct PaneShares {
 }
 
 /// The pane of a grey glass.
-pub(super) fn grey(eta: f64, transmissivity: f64) -> Pane {
+pub(crate) fn grey(eta: f64, transmissivity: f64) -> Pane {
     let degrees = (0..=90_u32).filter(|&degrees| {
         let (from, apart) = DEGREES_APART[usize::from(degrees >= DEGREES_APART[1].0)];
         (degrees - from).is_multiple_of(apart)
@@ -42,7 +42,7 @@ pub(super) fn grey(eta: f64, transmissivity: f64) -> Pane {
 }
 
 /// The pane of a coloured glass, which at an angle takes as much of the light as at none.
-pub(super) fn coloured(eta: f64, transmissivity: Rgb) -> Pane {
+pub(crate) fn coloured(eta: f64, transmissivity: Rgb) -> Pane {
     let clear = Pane::clear_transmittance(eta);
     let normal = |share: f64| shares(eta, share, 0.0).transmitted.min(clear);
     Pane::Tinted { eta, transmittance: Rgb(transmissivity.0.map(normal)) }

@@ -1,0 +1,243 @@
+//! Goes through the files of a scene: what surfaces there are, and which modifiers.
+
+use super::command::{Command, Source};
+use super::definitions::{Definitions, Link, Place};
+use super::document::{EntryKind, Primitive, shown};
+use super::findings::Findings;
+use super::includes::{Include, Includes, Missing};
+use super::materials::is_modifier;
+use super::shapes::{Placement, Shape, is_surface};
+use super::xform::Xform;
+use crate::LoadError;
+use std::rc::Rc;
+use std::sync::Arc;
+
+/// Most primitives of a scene, those in arrays counted each time.
+const MAX_PRIMITIVES: u64 = 2_000_000;
+/// Most numbers of all of them.
+const MAX_REALS: u64 = 40_000_000;
+/// Most files, each of which names the next.
+const MAX_DEPTH: usize = 32;
+
+/// A surface, and its modifier.
+#[derive(Clone, Debug)]
+pub(super) struct RawSurface {
+    pub(super) name: Arc<str>,
+    pub(super) modifier: Link,
+    pub(super) shape: Shape,
+    pub(super) place: Place,
+}
+
+/// Everything that was read so far.
+pub(super) struct Collector<'f> {
+    pub(super) includes: Includes<'f>,
+    pub(super) definitions: Definitions,
+    pub(super) surfaces: Vec<RawSurface>,
+    primitives_left: u64,
+    reals_left: u64,
+}
+
+/// How a file is put into the scene.
+#[derive(Clone)]
+struct Context {
+    placement: Placement,
+    /// The modifier of all surfaces.
+    modifier: Option<Arc<str>>,
+    /// In front of the names of surfaces.
+    prefix: String,
+    depth: usize,
+}
+
+impl<'f> Collector<'f> {
+    pub(super) fn new(includes: Includes<'f>) -> Self {
+        Self {
+            includes,
+            definitions: Definitions::default(),
+            surfaces: Vec::new(),
+            primitives_left: MAX_PRIMITIVES,
+            reals_left: MAX_REALS,
+        }
+    }
+
+    /// Reads a file that the project names.
+    pub(super) fn file(&mut self, name: &str, findings: &mut Findings) -> Result<(), LoadError> {
+        let include = self.includes.named(name).map_err(|missing| match missing {
+            Missing::Refused(message) => LoadError::new(name, None, message),
+            Missing::Wrong(error) => error,
+        })?;
+        let placement = Placement { frame: super::frame::Frame::default(), is_inverted: false };
+        let context = Context { placement, modifier: None, prefix: String::new(), depth: 0 };
+        self.entries(&include, &context, findings)
+    }
+
+    fn entries(
+        &mut self,
+        include: &Rc<Include>,
+        context: &Context,
+        findings: &mut Findings,
+    ) -> Result<(), LoadError> {
+        let file: Arc<str> = include.path.as_ref().into();
+        for entry in &include.entries {
+            let place = Place { file: Arc::clone(&file), at: entry.place };
+            let done = match &entry.kind {
+                EntryKind::Primitive(primitive) => self.primitive(primitive, context, &place),
+                EntryKind::Alias(alias) => {
+                    self.count(0).and_then(|()| match self.definitions.alias(alias) {
+                        Some(()) => Ok(()),
+                        None => Err(Missing::Wrong(self.undefined(&alias.reference, &place))),
+                    })
+                }
+                EntryKind::Command(text) => match Command::parse(text) {
+                    Err(message) => Err(Missing::Refused(message)),
+                    Ok(command) => self.command(&command, context, &place, findings),
+                },
+            };
+            done.map_err(|missing| match missing {
+                Missing::Refused(message) => LoadError::new(&file, Some(entry.place), message),
+                Missing::Wrong(error) => error,
+            })?;
+        }
+        Ok(())
+    }
+
+    /// Takes one primitive off what a scene may have.
+    fn count(&mut self, reals: usize) -> Result<(), Missing> {
+        let left =
+            self.primitives_left.checked_sub(1).zip(self.reals_left.checked_sub(reals as u64));
+        let Some((primitives, reals)) = left else {
+            let message = format!(
+                "up to here the scene has more than {MAX_PRIMITIVES} primitives, or {MAX_REALS} \
+                 numbers in them, those in arrays counted each time; expected fewer"
+            );
+            return Err(Missing::Refused(message));
+        };
+        (self.primitives_left, self.reals_left) = (primitives, reals);
+        Ok(())
+    }
+
+    fn primitive(
+        &mut self,
+        primitive: &Primitive,
+        context: &Context,
+        place: &Place,
+    ) -> Result<(), Missing> {
+        self.count(primitive.reals.len())?;
+        if is_modifier(&primitive.kind) {
+            let frame = context.placement.frame;
+            self.definitions.add(Arc::new(primitive.clone()), frame, place.clone());
+            return Ok(());
+        }
+        if !is_surface(&primitive.kind) {
+            let message = format!(
+                "{} is no type of primitives; expected one of Radiance 5, such as polygon or plastic",
+                shown(&primitive.kind)
+            );
+            return Err(Missing::Refused(message));
+        }
+        let shape = Shape::of(primitive, &context.placement).map_err(Missing::Refused)?;
+        let modifier = context.modifier.as_ref().unwrap_or(&primitive.modifier);
+        let name: Arc<str> = match context.prefix.as_str() {
+            "" => Arc::clone(&primitive.name),
+            prefix => format!("{prefix}{}", primitive.name).into(),
+        };
+        let modifier = self.definitions.link(modifier);
+        self.surfaces.push(RawSurface { name, modifier, shape, place: place.clone() });
+        Ok(())
+    }
+
+    fn command(
+        &mut self,
+        command: &Command,
+        context: &Context,
+        place: &Place,
+        findings: &mut Findings,
+    ) -> Result<(), Missing> {
+        if context.depth >= MAX_DEPTH {
+            let message = format!(
+                "more than {MAX_DEPTH} files name each other up to here; expected none that names \
+                 itself"
+            );
+            return Err(Missing::Refused(message));
+        }
+        let context = Context { depth: context.depth + 1, ..context.clone() };
+        self.stages(command, command.stages.len(), &context, place, findings)
+    }
+
+    /// Applies the outermost of the first so many stages, and then the others.
+    fn stages(
+        &mut self,
+        command: &Command,
+        stages: usize,
+        context: &Context,
+        place: &Place,
+        findings: &mut Findings,
+    ) -> Result<(), Missing> {
+        let Some(stage) = stages.checked_sub(1) else {
+            return self.source(&command.source, context, place, findings);
+        };
+        let xform = &command.stages[stage];
+        for number in 0..xform.transforms.copies() {
+            self.count(0)?;
+            let inner = inside(xform, number, context)?;
+            self.stages(command, stage, &inner, place, findings)?;
+        }
+        Ok(())
+    }
+
+    fn source(
+        &mut self,
+        source: &Source,
+        context: &Context,
+        place: &Place,
+        findings: &mut Findings,
+    ) -> Result<(), Missing> {
+        match source {
+            Source::Generated(generator) => {
+                for primitive in generator.primitives() {
+                    self.primitive(&primitive, context, place)?;
+                }
+            }
+            Source::Files(names) => {
+                for name in names {
+                    let include = self.includes.scene(&place.file, name)?;
+                    self.entries(&include, context, findings).map_err(Missing::Wrong)?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The refusal of a name that nothing has.
+    pub(super) fn undefined(&self, name: &str, place: &Place) -> LoadError {
+        let message = format!(
+            "no modifier is called \"{}\"; expected one of the scene, or a file with it beside the \
+             others",
+            shown(name)
+        );
+        LoadError::new(&place.file, Some(place.at), message).offer(name, self.definitions.names())
+    }
+}
+
+/// The context within a copy of an `xform`.
+fn inside(xform: &Xform, number: u64, outer: &Context) -> Result<Context, Missing> {
+    let copy = xform.transforms.copy(number);
+    let beyond = || Missing::Refused("xform leads beyond all coordinates".to_owned());
+    let copy = copy.ok_or_else(beyond)?;
+    let frame = copy.frame.then(&outer.placement.frame);
+    if !frame.is_finite() {
+        return Err(beyond());
+    }
+    let is_inverted = outer.placement.is_inverted != xform.is_inverted;
+    let modifier = outer.modifier.clone();
+    let modifier = modifier.or_else(|| xform.modifier.as_deref().map(Arc::from));
+    let name = xform.name.as_deref().map(|name| format!("{name}{}.", copy.suffix));
+    let prefix = format!("{}{}", outer.prefix, name.unwrap_or_default());
+    if prefix.len() > MAX_PREFIX {
+        return Err(Missing::Refused("the names (-n) of xform are too long".to_owned()));
+    }
+    let placement = Placement { frame, is_inverted };
+    Ok(Context { placement, modifier, prefix, depth: outer.depth })
+}
+
+/// Longest prefix of a name in bytes.
+const MAX_PREFIX: usize = 1000;

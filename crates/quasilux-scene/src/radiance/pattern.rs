@@ -1,0 +1,213 @@
+//! Distributions of `source.cal`, as `ies2rad` writes them: `brightdata` over the angles of light.
+//!
+//! `theta` is measured from -z, `phi` from +x towards +y, of the direction in which light leaves
+//! (Radiance's `source.cal`). The radiance of the surface is that of its material times the value
+//! of the data, and a correction for how the surface looks from there.
+
+use super::data::Data;
+use super::document::shown;
+use super::frame::Frame;
+use super::xform::{Parsed, Transforms};
+use crate::radiance::definitions::Definition;
+use glam::DVec3;
+use std::f64::consts::PI;
+use std::rc::Rc;
+
+/// A distribution around a frame of its own.
+#[derive(Clone, Debug)]
+pub(super) struct Distribution {
+    correction: Correction,
+    pub(super) coordinates: Vec<Coordinate>,
+    pub(super) data: Rc<Data>,
+    pub(super) frame: Frame,
+}
+
+/// Factor on the values of the data.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Correction {
+    /// As it is.
+    Plain(f64),
+    /// Over the cosine at the surface.
+    Flat(f64),
+    /// Over the area that a box shows, by its sides in m.
+    Box(f64, DVec3),
+    /// Over the area that a cylinder along z shows, by diameter and height in m.
+    Cylinder(f64, [f64; 2]),
+}
+
+/// An angle of a direction, in degrees.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Coordinate {
+    Theta,
+    /// All around.
+    Phi,
+    /// Mirrored at the plane of x and z.
+    Phi2,
+    /// Mirrored at both planes.
+    Phi4,
+    /// Of photometric type B; mirrored where true.
+    Vertical(bool),
+    Horizontal(bool),
+}
+
+impl Coordinate {
+    fn named(name: &str) -> Option<Self> {
+        Some(match name {
+            "src_theta" => Self::Theta,
+            "src_phi" => Self::Phi,
+            "src_phi2" => Self::Phi2,
+            "src_phi4" => Self::Phi4,
+            "srcB_vert" => Self::Vertical(false),
+            "srcB_vert2" => Self::Vertical(true),
+            "srcB_horiz" => Self::Horizontal(false),
+            "srcB_horiz2" => Self::Horizontal(true),
+            _ => return None,
+        })
+    }
+
+    /// Of a direction in which light leaves.
+    fn of(self, direction: DVec3) -> f64 {
+        let DVec3 { x, y, z } = direction;
+        let phi = || libm::atan2(y, x).to_degrees().rem_euclid(360.0);
+        let folded = |angle: f64, most: f64| {
+            let rest = angle.rem_euclid(2.0 * most);
+            if rest > most { 2.0 * most - rest } else { rest }
+        };
+        let mirrored =
+            |angle: f64, is_mirrored: bool| if is_mirrored { angle.abs() } else { angle };
+        match self {
+            Self::Theta => libm::atan2((x * x + y * y).sqrt(), -z).to_degrees(),
+            Self::Phi => phi(),
+            Self::Phi2 => folded(phi(), 180.0),
+            Self::Phi4 => folded(phi(), 90.0),
+            Self::Vertical(is_mirrored) => mirrored(libm::atan2(x, -z).to_degrees(), is_mirrored),
+            Self::Horizontal(is_mirrored) => {
+                mirrored(libm::atan2(-y, -z).to_degrees(), is_mirrored)
+            }
+        }
+    }
+}
+
+/// Arguments of a `brightdata`.
+pub(super) struct Arguments<'d> {
+    pub(super) function: &'d str,
+    pub(super) data_file: &'d str,
+    functions: &'d str,
+    coordinates: Vec<&'d str>,
+    pub(super) frame: Frame,
+}
+
+impl<'d> Arguments<'d> {
+    /// Those of a definition; `None` where it is something else.
+    pub(super) fn of(definition: &'d Definition) -> Option<Self> {
+        let primitive = &definition.primitive;
+        let [function, data_file, functions, rest @ ..] = primitive.strings.as_slice() else {
+            return None;
+        };
+        if &*primitive.kind != "brightdata" {
+            return None;
+        }
+        let options = rest.iter().position(|word| word.starts_with('-')).unwrap_or(rest.len());
+        let (coordinates, options) = rest.split_at(options);
+        let words: Vec<String> = options.iter().map(|word| word.to_string()).collect();
+        let Parsed { transforms, .. } = Transforms::parse(&words).ok()?;
+        let own = transforms.copy(0).filter(|_| transforms.copies() == 1)?.frame;
+        let frame = own.then(&definition.frame);
+        let functions = functions.rsplit(['/', '\\']).next().unwrap_or(functions);
+        let coordinates = coordinates.iter().map(|word| &**word).collect();
+        frame.is_finite().then_some(Self { function, data_file, functions, coordinates, frame })
+    }
+
+    /// Whether it is a distribution of light.
+    pub(super) fn is_of_source(&self) -> bool {
+        self.functions == "source.cal"
+    }
+
+    /// Position of the data of a lamp's tilt that this pattern asks for; `None` for other patterns.
+    pub(super) fn tilt_deg(&self) -> Option<f64> {
+        let tilt = libm::acos((self.frame.turn * DVec3::Z).z.clamp(-1.0, 1.0)).to_degrees();
+        let is_tilt = self.functions == "tilt.cal" && self.function == "noop";
+        match self.coordinates.as_slice() {
+            ["tilt_ang"] if is_tilt => Some(tilt),
+            ["tilt_ang2"] if is_tilt => Some(if tilt > 90.0 { 180.0 - tilt } else { tilt }),
+            _ => None,
+        }
+    }
+
+    /// The distribution with its data and the numbers of its definition.
+    pub(super) fn distribution(
+        &self,
+        data: &Rc<Data>,
+        reals: &[f64],
+    ) -> Result<Distribution, String> {
+        let first = |usual: Option<f64>| {
+            let factor = reals.first().copied().or(usual);
+            let factor = factor.filter(|factor| *factor >= 0.0 && *factor <= 1e12);
+            factor.ok_or_else(|| "its first real argument is no factor".to_owned())
+        };
+        let side = |at: usize| {
+            let side = reals.get(at).copied().filter(|side| *side >= 0.0 && *side <= 1e6);
+            side.ok_or_else(|| "its real arguments are no lengths".to_owned())
+        };
+        let correction = match self.function {
+            "corr" | "noop" => Correction::Plain(first(Some(1.0))?),
+            "flatcorr" => Correction::Flat(first(Some(1.0))?),
+            "boxcorr" | "lboxcorr" => {
+                Correction::Box(first(None)?, DVec3::new(side(1)?, side(2)?, side(3)?))
+            }
+            "cylcorr" => Correction::Cylinder(first(None)?, [side(1)?, side(2)?]),
+            other => {
+                return Err(format!(
+                    "the function {} is not known; expected flatcorr, boxcorr, cylcorr or corr",
+                    shown(other)
+                ));
+            }
+        };
+        let coordinates = self.coordinates.iter().map(|name| Coordinate::named(name));
+        let coordinates: Option<Vec<Coordinate>> = coordinates.collect();
+        let coordinates = coordinates.filter(|all| all.len() == data.axes.len());
+        let coordinates = coordinates.ok_or_else(|| {
+            "its coordinates are not known, or not as many as those of the data; expected \
+             src_theta, behind one of src_phi, src_phi2 and src_phi4"
+                .to_owned()
+        })?;
+        if !data.is_of_light() {
+            return Err("its data have values below 0".to_owned());
+        }
+        let (data, frame) = (Rc::clone(data), self.frame);
+        Ok(Distribution { correction, coordinates, data, frame })
+    }
+}
+
+impl Distribution {
+    /// Whether the radiance grows as a surface is seen from the side.
+    pub(super) fn is_flat(&self) -> bool {
+        matches!(self.correction, Correction::Flat(_))
+    }
+
+    /// Factor on the radiance of the material toward a direction of the distribution's own frame;
+    /// for flat surfaces times the cosine.
+    pub(super) fn factor(&self, direction: DVec3) -> f64 {
+        let at: Vec<f64> = self.coordinates.iter().map(|it| it.of(direction)).collect();
+        let value = self.data.value(&at);
+        let DVec3 { x, y, z } = direction.abs();
+        match self.correction {
+            Correction::Plain(factor) | Correction::Flat(factor) => factor * value,
+            Correction::Box(factor, sides) => {
+                let shown = x * sides.y * sides.z + y * sides.x * sides.z + z * sides.x * sides.y;
+                if shown > 0.0 { factor * value / shown } else { 0.0 }
+            }
+            Correction::Cylinder(factor, [diameter, height]) => {
+                let side = diameter * height * (1.0 - z * z).max(0.0).sqrt();
+                let shown = side + 0.25 * PI * diameter * diameter * z;
+                if shown > 0.0 { factor * value / shown } else { 0.0 }
+            }
+        }
+    }
+
+    /// Positions of the data along an angle, where it is one of its coordinates.
+    pub(super) fn axis(&self, of: impl Fn(Coordinate) -> bool) -> Option<&[f64]> {
+        let at = self.coordinates.iter().position(|&coordinate| of(coordinate))?;
+        Some(&self.data.axes[at])
+    }
+}

@@ -1,0 +1,394 @@
+//! A scene as a whole: surfaces with their materials, luminaires, and light from outside.
+
+use super::collector::{Collector, RawSurface};
+use super::data::Data;
+use super::definitions::{Definition, Definitions, Link, Place};
+use super::document::shown;
+use super::findings::Findings;
+use super::includes::Includes;
+use super::lamps::{Lamp, Source, distribution_of, groups};
+use super::look::Look;
+use super::materials::{Reading, is_material, is_pattern, look, shines};
+use super::outside::{Far, Outside};
+use super::pattern::Arguments;
+use super::shapes::Shape;
+use crate::{FileKind, Files, LoadError};
+use quasilux_text::Position;
+use std::collections::HashMap;
+use std::fmt::Write;
+use std::rc::Rc;
+use std::sync::Arc;
+
+/// Everything that a scene says.
+#[derive(Debug, Default)]
+pub(crate) struct Scene {
+    pub(crate) surfaces: Vec<Surface>,
+    /// The materials by name.
+    pub(crate) materials: Vec<(String, Look)>,
+    pub(crate) lamps: Vec<Lamp>,
+    pub(crate) outside: Outside,
+}
+
+/// A surface that light meets.
+#[derive(Debug)]
+pub(crate) struct Surface {
+    pub(crate) name: Arc<str>,
+    /// The number of its material.
+    pub(crate) material: usize,
+    pub(crate) shape: Shape,
+    pub(crate) file: Arc<str>,
+    pub(crate) at: Position,
+}
+
+/// Most luminaires.
+const MAX_LAMPS: usize = 20_000;
+/// Longest chain of modifiers.
+const MAX_CHAIN: usize = 64;
+
+/// Modifiers of a surface.
+#[derive(Clone, Debug, Default)]
+struct Chain {
+    /// Numbers of definitions.
+    material: Option<usize>,
+    patterns: Vec<usize>,
+    is_textured: bool,
+}
+
+impl Scene {
+    /// Reads the files of a scene, in their order.
+    pub(crate) fn read(
+        files: &dyn Files,
+        names: &[&str],
+        findings: &mut Findings,
+    ) -> Result<Self, LoadError> {
+        let first = names.first().copied().unwrap_or_default();
+        let mut collector = Collector::new(Includes::new(files, first));
+        for name in names {
+            collector.file(name, findings)?;
+        }
+        let surfaces = std::mem::take(&mut collector.surfaces);
+        let mut sorter = Sorter {
+            collector,
+            findings,
+            scene: Self::default(),
+            chains: HashMap::new(),
+            numbers: HashMap::new(),
+            names: HashMap::new(),
+            data: HashMap::new(),
+        };
+        let mut shining: Vec<Shining> = Vec::new();
+        let mut group_of: HashMap<usize, usize> = HashMap::new();
+        for surface in surfaces {
+            if let Some(source) = sorter.surface(&surface)? {
+                let at = *group_of.entry(source).or_insert_with(|| {
+                    shining.push(Shining { definition: source, surfaces: Vec::new() });
+                    shining.len() - 1
+                });
+                shining[at].surfaces.push(surface);
+            }
+        }
+        for Shining { definition, surfaces } in shining {
+            sorter.lamps(definition, surfaces)?;
+        }
+        Ok(sorter.scene)
+    }
+}
+
+/// Surfaces of one material that are luminaires.
+struct Shining {
+    definition: usize,
+    surfaces: Vec<RawSurface>,
+}
+
+/// Sorts surfaces by what becomes of them.
+struct Sorter<'f, 'n> {
+    collector: Collector<'f>,
+    findings: &'n mut Findings,
+    scene: Scene,
+    chains: HashMap<usize, Chain>,
+    /// Numbers of materials, by all that they depend on.
+    numbers: HashMap<String, usize>,
+    /// How many materials have a name.
+    names: HashMap<String, usize>,
+    data: HashMap<String, Result<Rc<Data>, String>>,
+}
+
+impl Sorter<'_, '_> {
+    fn definitions(&self) -> &Definitions {
+        &self.collector.definitions
+    }
+
+    /// Takes a surface; the number of its material where it is a part of a luminaire.
+    fn surface(&mut self, surface: &RawSurface) -> Result<Option<usize>, LoadError> {
+        let chain = self.chain_of(&surface.modifier, &surface.place)?;
+        let Some(material) = chain.material else {
+            let place = format!("surface \"{}\"", shown(&surface.name));
+            self.findings.note(&place, "a surface without a material is left out");
+            return Ok(None);
+        };
+        if let Shape::Source { direction, angle_deg } = surface.shape {
+            let definitions = &self.collector.definitions;
+            let far = Far {
+                direction,
+                angle_deg,
+                material: definitions.get(material),
+                patterns: chain.patterns.iter().map(|&it| definitions.get(it)).collect(),
+                place: format!("source \"{}\"", shown(&surface.name)),
+            };
+            self.scene.outside.add(&far, self.findings);
+            return Ok(None);
+        }
+        if self.is_lamp(&chain) {
+            return Ok(Some(material));
+        }
+        let number = self.material(&chain, 0)?;
+        self.keep(surface, number);
+        Ok(None)
+    }
+
+    fn keep(&mut self, surface: &RawSurface, material: usize) {
+        if matches!(self.scene.materials[material].1, Look::Open) {
+            return;
+        }
+        self.scene.surfaces.push(Surface {
+            name: Arc::clone(&surface.name),
+            material,
+            shape: surface.shape.clone(),
+            file: Arc::clone(&surface.place.file),
+            at: surface.place.at,
+        });
+    }
+
+    /// All modifiers from a link on.
+    fn chain_of(&mut self, link: &Link, place: &Place) -> Result<Chain, LoadError> {
+        let link = self.definitions().settled(link);
+        let first = match &link {
+            Link::Void => return Ok(Chain::default()),
+            Link::Open(name) => return Err(self.collector.undefined(name, place)),
+            Link::To(number) => *number,
+        };
+        if let Some(known) = self.chains.get(&first) {
+            return Ok(known.clone());
+        }
+        let mut chain = Chain::default();
+        let mut next = Link::To(first);
+        let mut length = 0;
+        while let Link::To(number) = next {
+            let definition = self.definitions().get(number);
+            let kind = &*definition.primitive.kind;
+            if is_material(kind) {
+                if chain.material.is_none() {
+                    chain.material = Some(number);
+                }
+            } else if is_pattern(kind) {
+                chain.patterns.push(number);
+            } else {
+                chain.is_textured = true;
+            }
+            let place = definition.place.clone();
+            next = self.definitions().settled(&definition.modifier);
+            length += 1;
+            if let Link::Open(name) = &next {
+                return Err(self.collector.undefined(name, &place));
+            }
+            if length > MAX_CHAIN {
+                let message = format!("more than {MAX_CHAIN} modifiers modify each other");
+                return Err(LoadError::new(&place.file, Some(place.at), message));
+            }
+        }
+        self.chains.insert(first, chain.clone());
+        Ok(chain)
+    }
+
+    /// Whether surfaces of these modifiers are luminaires.
+    fn is_lamp(&self, chain: &Chain) -> bool {
+        let Some(material) = chain.material else { return false };
+        let primitive = &self.definitions().get(material).primitive;
+        let has_distribution = || {
+            chain.patterns.iter().any(|&it| distribution_of(self.definitions().get(it)).is_some())
+        };
+        match &*primitive.kind {
+            "spotlight" => true,
+            "light" | "illum" => has_distribution(),
+            "glow" => {
+                primitive.reals.get(3).is_some_and(|reach| *reach >= 0.0) && has_distribution()
+            }
+            _ => false,
+        }
+    }
+
+    /// The number of the material of a chain.
+    fn material(&mut self, chain: &Chain, depth: usize) -> Result<usize, LoadError> {
+        let number = chain.material.expect("a chain with a material");
+        let definition = self.definitions().get(number).clone();
+        if let Some(alternate) = alternate(&definition).filter(|_| depth < MAX_CHAIN) {
+            let place = format!("illum \"{}\"", shown(&definition.name));
+            let note = "an illum is its alternate material: light comes through that by itself";
+            self.findings.note(&place, note);
+            let link = self.definitions().link(alternate);
+            let inner = self.chain_of(&link, &definition.place)?;
+            if inner.material.is_some() {
+                return self.material(&inner, depth + 1);
+            }
+        }
+        let key = key(&definition, chain);
+        if let Some(&known) = self.numbers.get(&key) {
+            return Ok(known);
+        }
+        let found = self.look(&definition, chain);
+        let count = self.names.entry(definition.name.to_string()).or_insert(0);
+        *count += 1;
+        let mut name = definition.name.to_string();
+        if *count > 1 {
+            write!(name, " {count}").expect("strings grow");
+        }
+        Ok(self.push_material(key, name, found))
+    }
+
+    fn push_material(&mut self, key: String, name: String, look: Look) -> usize {
+        self.scene.materials.push((name, look));
+        let number = self.scene.materials.len() - 1;
+        self.numbers.insert(key, number);
+        number
+    }
+
+    fn look(&mut self, definition: &Definition, chain: &Chain) -> Look {
+        let kind = &*definition.primitive.kind;
+        let place = format!("{kind} \"{}\"", shown(&definition.name));
+        if shines(kind) && !chain.patterns.is_empty() {
+            let pattern = self.definitions().get(chain.patterns[0]);
+            let (kind, pattern) = (&pattern.primitive.kind, shown(&pattern.name));
+            return Look::Unknown(format!(
+                "{place} shines by the pattern {kind} \"{pattern}\", of which there is nothing \
+                 here; expected none, or brightdata with source.cal"
+            ));
+        }
+        if !chain.patterns.is_empty() {
+            self.findings.note(&place, "the pattern that it is modified by is left out");
+        }
+        if chain.is_textured {
+            self.findings.note(&place, "the texture that it is modified by is left out");
+        }
+        let includes = &mut self.collector.includes;
+        look(definition, &mut Reading { includes, findings: self.findings })
+    }
+
+    /// Surfaces of one material to luminaires.
+    fn lamps(&mut self, material: usize, surfaces: Vec<RawSurface>) -> Result<(), LoadError> {
+        let definition = self.definitions().get(material).clone();
+        let place = format!("{} \"{}\"", definition.primitive.kind, shown(&definition.name));
+        let chain = self.chain_of(&Link::To(material), &definition.place)?;
+        let shapes: Vec<&Shape> = surfaces.iter().map(|surface| &surface.shape).collect();
+        let groups = groups(&shapes);
+        let mut made = Vec::new();
+        let outcome = self.source(&definition, &chain).and_then(|source| {
+            for group in &groups {
+                let shapes: Vec<&Shape> = group.iter().map(|&index| shapes[index]).collect();
+                made.extend(source.lamp(&definition.name, &shapes)?);
+            }
+            Ok(())
+        });
+        if let Err(why) = outcome {
+            let key = format!("dark {material}");
+            let refusal = format!(
+                "the light of {place} is not known: {why}; expected what \
+                                   ies2rad writes"
+            );
+            let name = definition.name.to_string();
+            let number = self.push_material(key, name, Look::Unknown(refusal));
+            surfaces.iter().for_each(|surface| self.keep(surface, number));
+            return Ok(());
+        }
+        if made.len() < groups.len() {
+            self.findings.note(&place, "a luminaire that gives no light is left out");
+        }
+        self.scene.lamps.append(&mut made);
+        if self.scene.lamps.len() > MAX_LAMPS {
+            let message = format!("more than {MAX_LAMPS} luminaires; expected fewer");
+            let Place { file, at } = &definition.place;
+            return Err(LoadError::new(file, Some(*at), message));
+        }
+        Ok(())
+    }
+
+    /// The distribution of a material, or why it is not known.
+    fn source<'d>(
+        &mut self,
+        definition: &'d Definition,
+        chain: &Chain,
+    ) -> Result<Source<'d>, String> {
+        let mut source = Source { definition, distribution: None, tilt_factor: 1.0 };
+        let place = format!("{} \"{}\"", definition.primitive.kind, shown(&definition.name));
+        if definition.primitive.reals.first_chunk()
+            != Some(&[definition.primitive.reals.first().copied().unwrap_or(0.0); 3])
+        {
+            self.findings.note(&place, "the colour of its light is left out");
+        }
+        for &number in &chain.patterns {
+            let pattern = self.definitions().get(number).clone();
+            let arguments = Arguments::of(&pattern);
+            let arguments = arguments.filter(|it| it.is_of_source() || it.tilt_deg().is_some());
+            let Some(arguments) = arguments else {
+                let name = shown(&pattern.name);
+                let kind = &pattern.primitive.kind;
+                return Err(format!("it has the pattern {kind} \"{name}\""));
+            };
+            let data = self.data(&pattern.place.file, arguments.data_file)?;
+            match arguments.tilt_deg() {
+                Some(degrees) => source.tilt_factor *= data.value(&[degrees]).clamp(0.0, 1e6),
+                None if source.distribution.is_some() => {
+                    return Err("it has two distributions".to_owned());
+                }
+                None => {
+                    let reals = &pattern.primitive.reals;
+                    source.distribution = Some(arguments.distribution(&data, reals)?);
+                }
+            }
+        }
+        Ok(source)
+    }
+
+    fn data(&mut self, of: &str, name: &str) -> Result<Rc<Data>, String> {
+        let key = format!("{of}\n{name}");
+        if let Some(known) = self.data.get(&key) {
+            return known.clone();
+        }
+        let bytes = self.collector.includes.data(of, name, FileKind::Radiance);
+        let read = bytes.and_then(|bytes| {
+            let data = Data::parse(&String::from_utf8_lossy(&bytes));
+            data.map(Rc::new).map_err(|what| format!("\"{}\" is no data: {what}", shown(name)))
+        });
+        self.data.insert(key, read.clone());
+        read
+    }
+}
+
+/// The alternate material of an `illum` that has one.
+fn alternate(definition: &Definition) -> Option<&Arc<str>> {
+    let first = definition.primitive.strings.first();
+    first.filter(|name| &*definition.primitive.kind == "illum" && &***name != "void")
+}
+
+/// Text that is the same for materials that are.
+fn key(definition: &Definition, chain: &Chain) -> String {
+    let primitive = &definition.primitive;
+    let mut key = format!(
+        "{:?} {:?} {:?} {} {}",
+        definition.name,
+        primitive.kind,
+        primitive.strings,
+        chain.patterns.is_empty(),
+        chain.is_textured
+    );
+    primitive.reals.iter().for_each(|real| {
+        write!(key, " {:x}", real.to_bits()).expect("strings grow");
+    });
+    if matches!(&*primitive.kind, "BSDF" | "aBSDF") {
+        write!(key, " {} {:?}", definition.place.file, definition.frame.turn)
+            .expect("strings grow");
+    }
+    if shines(&primitive.kind) {
+        write!(key, " {:?}", chain.patterns).expect("strings grow");
+    }
+    key
+}

@@ -1,0 +1,138 @@
+//! Surfaces of Radiance, in the coordinates of the scene.
+
+use super::document::{Primitive, shown};
+use super::frame::Frame;
+use glam::DVec3;
+
+/// The shape of a surface. Its front is where its normals point.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Shape {
+    /// Counter-clockwise seen from the front; holes by seams.
+    Polygon(Vec<DVec3>),
+    Sphere {
+        centre: DVec3,
+        radius: f64,
+        is_inward: bool,
+    },
+    /// Cylinder, tube, cone or cup, without ends.
+    Cone {
+        from: DVec3,
+        to: DVec3,
+        from_radius: f64,
+        to_radius: f64,
+        is_inward: bool,
+    },
+    Ring {
+        centre: DVec3,
+        /// Of length 1.
+        normal: DVec3,
+        inner_radius: f64,
+        outer_radius: f64,
+    },
+    /// Something far away, in a direction of length 1, within a cone of this full angle.
+    Source {
+        direction: DVec3,
+        angle_deg: f64,
+    },
+}
+
+/// Where a surface is put, and whether its front becomes its back.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Placement {
+    pub(super) frame: Frame,
+    pub(super) is_inverted: bool,
+}
+
+/// Whether a type of primitives is one of surfaces.
+pub(super) fn is_surface(kind: &str) -> bool {
+    matches!(
+        kind,
+        "source"
+            | "sphere"
+            | "bubble"
+            | "polygon"
+            | "cone"
+            | "cup"
+            | "cylinder"
+            | "tube"
+            | "ring"
+            | "mesh"
+            | "instance"
+    )
+}
+
+impl Shape {
+    /// The shape of a surface, as it is put; `Err` says what was expected.
+    pub(super) fn of(primitive: &Primitive, placement: &Placement) -> Result<Self, String> {
+        let Placement { frame, is_inverted } = placement;
+        let reals = primitive.reals.as_slice();
+        let vector = |at: usize| DVec3::new(reals[at], reals[at + 1], reals[at + 2]);
+        let point = |at: usize| frame.point(vector(at));
+        let radius = |at: usize| reals[at].abs() * frame.scale;
+        let needs = |count: usize| expect(primitive, reals.len() == count, &count.to_string());
+        let kind = &*primitive.kind;
+        Ok(match kind {
+            "polygon" => {
+                let is_fine = reals.len() >= 9 && reals.len().is_multiple_of(3);
+                expect(primitive, is_fine, "three for each of at least 3 corners")?;
+                let mut corners: Vec<DVec3> = (0..reals.len()).step_by(3).map(point).collect();
+                if *is_inverted != frame.is_mirrored() {
+                    corners.reverse();
+                }
+                Self::Polygon(corners)
+            }
+            "sphere" | "bubble" => {
+                needs(4)?;
+                let turned = (kind == "bubble") != (reals[3] < 0.0);
+                let (centre, radius) = (point(0), radius(3));
+                Self::Sphere { centre, radius, is_inward: turned != *is_inverted }
+            }
+            "cylinder" | "tube" => {
+                needs(7)?;
+                let is_inward = ((kind == "tube") != (reals[6] < 0.0)) != *is_inverted;
+                let (from_radius, to_radius) = (radius(6), radius(6));
+                Self::Cone { from: point(0), to: point(3), from_radius, to_radius, is_inward }
+            }
+            "cone" | "cup" => {
+                needs(8)?;
+                let is_inward = (kind == "cup") != *is_inverted;
+                let (from_radius, to_radius) = (radius(6), radius(7));
+                Self::Cone { from: point(0), to: point(3), from_radius, to_radius, is_inward }
+            }
+            "ring" => {
+                needs(8)?;
+                let normal = frame.direction(vector(3)).try_normalize();
+                let normal = normal.ok_or_else(|| of(primitive, "a normal of no length"))?;
+                let normal = if *is_inverted { -normal } else { normal };
+                let (a, b) = (radius(6), radius(7));
+                let (inner_radius, outer_radius) = (a.min(b), a.max(b));
+                Self::Ring { centre: point(0), normal, inner_radius, outer_radius }
+            }
+            "source" => {
+                needs(4)?;
+                let direction = frame.direction(vector(0)).try_normalize();
+                let direction = direction.ok_or_else(|| of(primitive, "no direction"))?;
+                Self::Source { direction, angle_deg: reals[3].abs() }
+            }
+            "mesh" => return Err(of(primitive, MESH)),
+            _ => return Err(of(primitive, INSTANCE)),
+        })
+    }
+}
+
+const MESH: &str = "a compiled mesh, which is not read; convert the OBJ file that it was made of \
+                    by obj2rad, or name that in the project";
+const INSTANCE: &str = "an octree, which is not read; name the scene file that it was made of by \
+                        !xform in its place";
+
+fn of(primitive: &Primitive, what: &str) -> String {
+    format!("{} \"{}\" has {what}", primitive.kind, shown(&primitive.name))
+}
+
+fn expect(primitive: &Primitive, is_fine: bool, count: &str) -> Result<(), String> {
+    if is_fine {
+        return Ok(());
+    }
+    let found = primitive.reals.len();
+    Err(of(primitive, &format!("{found} real arguments; expected {count}")))
+}
