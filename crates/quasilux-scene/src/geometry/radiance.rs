@@ -22,7 +22,8 @@ pub(super) fn read(
     warnings: &mut Vec<Warning>,
 ) -> Result<(), LoadError> {
     let mut findings = Findings::default();
-    let scene = Scene::read(files, names, &mut findings)?;
+    let described = project.materials.iter().map(|entry| entry.name.value.as_str()).collect();
+    let scene = Scene::read(files, names, &described, &mut findings)?;
     tell_unused(&scene, project, &mut findings);
     builder.measure_file_in(UpAxis::Z, project.unit.metres());
     add(scene, builder, &mut findings, warnings)?;

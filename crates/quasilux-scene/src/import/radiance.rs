@@ -8,7 +8,7 @@ use crate::radiance::{Findings, Ground, Lamp, Look, Outside, Scene, SkyKind, Vie
 use crate::{Camera, FileKind, Files, LoadError, Warning, files as reading};
 use glam::DVec3;
 use quasilux_sky::{CieType, Distribution, Sky, SkyLevel, SkyPoint};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::f64::consts::PI;
 
 /// How a scene becomes a project. Files are named as the project names them.
@@ -42,7 +42,7 @@ pub fn import_radiance(
     let names: Vec<&str> = terms.scene.iter().map(String::as_str).collect();
     // Told when the project is loaded.
     let mut of_geometry = Findings::default();
-    let scene = Scene::read(files, &names, &mut of_geometry)?;
+    let scene = Scene::read(files, &names, &HashSet::new(), &mut of_geometry)?;
     let mut writer = Writer {
         terms,
         text: Text::default(),

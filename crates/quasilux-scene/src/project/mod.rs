@@ -117,7 +117,8 @@ const SCENE_KEYS: [Key; 5] = [
     required(
         "geometry",
         "list of file names",
-        "OBJ, glTF or GLB files or Honeybee models (`.hbjson`), at least one, each once",
+        "OBJ, glTF or GLB files, Honeybee models (`.hbjson`) or Radiance scenes (`.rad`, `.mat`, \
+         which are one scene), at least one, each once",
     ),
     optional(
         "up",
@@ -252,7 +253,7 @@ struct SceneSection {
 }
 
 fn scene_section(root: &Section<'_>) -> Result<SceneSection, LoadError> {
-    let expected = "[\"room.obj\"]: OBJ, glTF, GLB or HBJSON files, relative to the project \
+    let expected = "[\"room.obj\"]: OBJ, glTF, GLB, HBJSON or RAD files, relative to the project \
                     file";
     let section = root.table("scene")?.ok_or_else(|| {
         root.error(format!("no [scene] section; expected [scene] with geometry = {expected}"))
@@ -288,7 +289,7 @@ fn geometry_files(list: &Value<'_>, expected: &str) -> Result<Vec<Spanned<String
     }
     let mut geometry: Vec<Spanned<String>> = Vec::new();
     for file in files {
-        let name = file.string("the name of an OBJ, glTF, GLB or HBJSON file")?;
+        let name = file.string("the name of an OBJ, glTF, GLB, HBJSON or RAD file")?;
         if geometry.iter().any(|earlier| earlier.value == name) {
             return Err(file.error(format!("\"{name}\" is listed twice; list each file once")));
         }

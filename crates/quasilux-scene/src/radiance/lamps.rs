@@ -143,11 +143,7 @@ impl Source<'_> {
     }
 
     /// The luminaire that these surfaces are; `None` where they give no light.
-    pub(super) fn lamp(
-        &self,
-        name: &str,
-        shapes: &[&Shape],
-    ) -> Result<Option<Lamp>, String> {
+    pub(super) fn lamp(&self, name: &str, shapes: &[&Shape]) -> Result<Option<Lamp>, String> {
         let luminance = self.tilt_factor * luminance_cd_m2(self.radiance()?);
         let emitter = Emitter::new(shapes, luminance, self.distribution.clone(), self.cone()?);
         let emitter = emitter.ok_or_else(|| "a part of it shines inward".to_owned())?;

@@ -14,7 +14,7 @@ use super::pattern::Arguments;
 use super::shapes::Shape;
 use crate::{FileKind, Files, LoadError};
 use quasilux_text::Position;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::fmt::Write;
 use std::rc::Rc;
 use std::sync::Arc;
@@ -55,10 +55,12 @@ struct Chain {
 }
 
 impl Scene {
-    /// Reads the files of a scene, in their order.
+    /// Reads the files of a scene, in their order. `described` are materials that the project
+    /// describes, and that the scene need not define.
     pub(crate) fn read(
         files: &dyn Files,
         names: &[&str],
+        described: &HashSet<&str>,
         findings: &mut Findings,
     ) -> Result<Self, LoadError> {
         let first = names.first().copied().unwrap_or_default();
@@ -70,6 +72,7 @@ impl Scene {
         let mut sorter = Sorter {
             collector,
             findings,
+            described,
             scene: Self::default(),
             chains: HashMap::new(),
             numbers: HashMap::new(),
@@ -104,6 +107,7 @@ struct Shining {
 struct Sorter<'f, 'n> {
     collector: Collector<'f>,
     findings: &'n mut Findings,
+    described: &'n HashSet<&'n str>,
     scene: Scene,
     chains: HashMap<usize, Chain>,
     /// Numbers of materials, by all that they depend on.
@@ -120,6 +124,12 @@ impl Sorter<'_, '_> {
 
     /// Takes a surface; the number of its material where it is a part of a luminaire.
     fn surface(&mut self, surface: &RawSurface) -> Result<Option<usize>, LoadError> {
+        if let Some(number) = self.described_elsewhere(&surface.modifier) {
+            if !matches!(surface.shape, Shape::Source { .. }) {
+                self.keep(surface, number);
+            }
+            return Ok(None);
+        }
         let chain = self.chain_of(&surface.modifier, &surface.place)?;
         let Some(material) = chain.material else {
             let place = format!("surface \"{}\"", shown(&surface.name));
@@ -144,6 +154,34 @@ impl Sorter<'_, '_> {
         let number = self.material(&chain, 0)?;
         self.keep(surface, number);
         Ok(None)
+    }
+
+    /// The material of a name that the scene does not define, and the project does.
+    fn described_elsewhere(&mut self, link: &Link) -> Option<usize> {
+        let Link::Open(name) = self.definitions().settled(link) else {
+            self.tell_late(link);
+            return None;
+        };
+        if !self.described.contains(&*name) {
+            return None;
+        }
+        let key = format!("described {name}");
+        match self.numbers.get(&key) {
+            Some(&known) => Some(known),
+            None => {
+                let look = Look::Unknown(format!("no modifier is called {name:?}"));
+                Some(self.push_material(key, name.to_string(), look))
+            }
+        }
+    }
+
+    /// Tells of a modifier that is defined behind what it modifies.
+    fn tell_late(&mut self, link: &Link) {
+        if let Link::Open(name) = link {
+            let place = format!("modifier \"{}\"", shown(name));
+            let note = "it is used before it is defined: its first definition counts";
+            self.findings.note(&place, note);
+        }
     }
 
     fn keep(&mut self, surface: &RawSurface, material: usize) {

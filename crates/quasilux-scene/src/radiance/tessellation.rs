@@ -53,6 +53,9 @@ fn turned([a, b, c]: [DVec3; 3], is_inward: bool) -> [DVec3; 3] {
 /// Cosine and sine of a part of a turn; mirror images have mirrored bits.
 fn part(step: usize, of: usize) -> [f64; 2] {
     let step = step % of;
+    if 2 * step == of {
+        return [-1.0, 0.0];
+    }
     if 2 * step > of {
         let [cos, sin] = part(of - step, of);
         return [cos, -sin];

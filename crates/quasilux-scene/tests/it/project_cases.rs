@@ -30,7 +30,7 @@ pub(crate) const PROJECT_CASES: &[Case] = &[
         "[\"room.obj\"]",
         "[\"room.blend\"]",
         2,
-        "expected a name that ends in .obj, .gltf, .glb or .hbjson",
+        "expected a name that ends in .obj, .gltf, .glb, .hbjson, .rad or .mat",
     ),
     case("[\"room.obj\"]", "[\"room.obj\"]\nup = \"x\"", 3, "expected \"y\" or \"z\""),
     case("[\"room.obj\"]", "[\"room.obj\"", 4, "not valid TOML"),

@@ -281,7 +281,10 @@ fn what_goes_wrong_is_said() {
     let year = ["annual", "model.hbjson", "--weather", "site.wea", "--checkpoint", "c"];
     refuses(&year, "--checkpoint goes with a project file");
     refuses(&["annual", "a.toml", "--weather", "site.wea"], "--weather goes with a Honeybee model");
-    refuses(&["import", "model.skp", "--out", "a.toml"], "expected a name that ends in .hbjson");
+    refuses(
+        &["import", "model.skp", "--out", "a.toml"],
+        "expected a name that ends in .hbjson, or names that end in .rad",
+    );
     refuses(&["import", "none.hbjson", "--out", "a.toml"], "none.hbjson: ");
     refuses(&["import", "model.hbjson", "--out", "site.wea"], "site.wea: is there already");
     folder.write("empty.hbjson", "{\"type\": \"Model\", \"rooms\": []}");

@@ -114,8 +114,8 @@ impl Gensky {
         match self.clouds {
             Clouds::Overcast => 7.0 / 9.0,
             Clouds::Uniform => 1.0,
-            Clouds::Clear => polynomial(clear) * self.zenith_factor() / PI,
-            Clouds::Intermediate => polynomial(intermediate) * self.zenith_factor() / PI,
+            Clouds::Clear => polynomial(clear) / self.zenith_factor() / PI,
+            Clouds::Intermediate => polynomial(intermediate) / self.zenith_factor() / PI,
         }
     }
 
