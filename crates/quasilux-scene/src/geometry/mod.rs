@@ -137,20 +137,7 @@ pub(crate) fn read(
             project.error(file.place, format!("\"{}\" is {what}", file.value))
         })?;
         if format == GeometryFormat::Radiance {
-            // All of them are one scene, which is read at the first.
-            let is_scene = |it: &&Spanned<String>| {
-                GeometryFormat::of_name(&it.value) == Some(GeometryFormat::Radiance)
-            };
-            let scene: Vec<&Spanned<String>> = project.geometry.iter().filter(is_scene).collect();
-            if scene[0].value == file.value {
-                for file in &scene {
-                    read_file(project, file, files, format.kind())?;
-                }
-                let names: Vec<&str> = scene.iter().map(|it| it.value.as_str()).collect();
-                builder.start_file(names[0]);
-                radiance::read(&names, project, files, &mut builder, warnings)?;
-                builder.finish_file(warnings)?;
-            }
+            read_scene(project, file, files, &mut builder, warnings)?;
             continue;
         }
         let bytes = read_file(project, file, files, format.kind())?;
@@ -183,6 +170,29 @@ pub(crate) fn read(
         warnings.push(Warning::new(&project.file, None, message));
     }
     Ok(builder.geometry)
+}
+
+/// Reads the files of a Radiance scene, which are all of a project, at the first of them.
+fn read_scene(
+    project: &Project,
+    file: &Spanned<String>,
+    files: &dyn Files,
+    builder: &mut MeshBuilder,
+    warnings: &mut Vec<Warning>,
+) -> Result<(), LoadError> {
+    let kind = GeometryFormat::Radiance;
+    let is_scene = |it: &&Spanned<String>| GeometryFormat::of_name(&it.value) == Some(kind);
+    let scene: Vec<&Spanned<String>> = project.geometry.iter().filter(is_scene).collect();
+    if scene[0].value != file.value {
+        return Ok(());
+    }
+    for file in &scene {
+        read_file(project, file, files, kind.kind())?;
+    }
+    let names: Vec<&str> = scene.iter().map(|it| it.value.as_str()).collect();
+    builder.start_file(names[0]);
+    radiance::read(&names, project, files, builder, warnings)?;
+    builder.finish_file(warnings)
 }
 
 /// Reads a file that the project file names.

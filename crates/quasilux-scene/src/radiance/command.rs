@@ -1,7 +1,7 @@
 //! Commands in a scene (`!`): what is understood of them. No shell and no program is ever started.
 
-use super::document::shown;
 use super::generators::Generator;
+use super::refusal::not_run;
 use super::xform::Xform;
 
 /// A command that stands for entries.
@@ -61,15 +61,6 @@ impl Command {
 fn program(name: &str) -> &str {
     let name = name.rsplit(['/', '\\']).next().unwrap_or(name);
     name.strip_suffix(".exe").unwrap_or(name)
-}
-
-/// The refusal of a program.
-pub(super) fn not_run(name: &str) -> String {
-    format!(
-        "the command \"{}\" is not run: no program is started for a scene; run it, save what it \
-         prints as a file, and name that by !xform in its place",
-        shown(name)
-    )
 }
 
 /// Words of each stage of a pipeline.

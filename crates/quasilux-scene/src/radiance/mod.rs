@@ -22,6 +22,7 @@ mod materials;
 mod outside;
 mod pattern;
 mod points;
+mod refusal;
 mod scene;
 mod shapes;
 mod tessellation;

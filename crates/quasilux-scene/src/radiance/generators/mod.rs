@@ -5,8 +5,8 @@ mod boxes;
 mod daylight;
 mod sky;
 
-use super::command::not_run;
 use super::document::{Primitive, shown};
+use super::refusal::not_run;
 use glam::DVec3;
 
 pub(super) use daylight::FILE as FILE_OF_GENDAYLIT;
