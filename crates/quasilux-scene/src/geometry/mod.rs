@@ -154,9 +154,7 @@ pub(crate) fn read(
                 }
                 gltf::read(&bytes, files, &mut builder, warnings)?;
             }
-            GeometryFormat::Honeybee => {
-                honeybee::read(&bytes, project, &mut builder, warnings)?;
-            }
+            GeometryFormat::Honeybee => honeybee::read(&bytes, project, &mut builder, warnings)?,
             GeometryFormat::Radiance => {}
         }
         builder.finish_file(warnings)?;
