@@ -1,5 +1,5 @@
-//! Geometry: OBJ and glTF files, Honeybee models, Radiance scenes and arrays to one mesh with shared
-//! vertices.
+//! Geometry: OBJ and glTF files, Honeybee models, Radiance scenes and arrays to one mesh with
+//! shared vertices.
 //!
 //! Each reader hands its triangles to one [`MeshBuilder`], which turns them up, merges vertices at
 //! exactly the same position, and counts the degenerate triangles that it drops.

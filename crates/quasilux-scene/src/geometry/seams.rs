@@ -1,5 +1,5 @@
-//! Polygons of Radiance: holes are parts of the outline, which goes to each of them and back along a
-//! seam.
+//! Polygons of Radiance: holes are parts of the outline, which goes to each of them and back along
+//! a seam.
 //!
 //! Ear clipping cuts most of them as they are. Where its triangles have another area than the
 //! outline, seams are taken out: an edge that is there in both directions parts an outline into

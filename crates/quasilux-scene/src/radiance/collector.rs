@@ -129,7 +129,8 @@ impl<'f> Collector<'f> {
         }
         if !is_surface(&primitive.kind) {
             let message = format!(
-                "{} is no type of primitives; expected one of Radiance 5, such as polygon or plastic",
+                "{} is no type of primitives; expected one of Radiance 5, such as polygon or \
+                 plastic",
                 shown(&primitive.kind)
             );
             return Err(Missing::Refused(message));

@@ -1,10 +1,10 @@
 //! Radiance: scenes (`.rad`), and what its materials are here.
 //!
-//! [`Scene::read`] goes through the files of a scene as `oconv` does, one after the other: modifiers
-//! by the last definition before they are used, aliases, and commands, of which `xform` and a few
-//! generators are evaluated and all others refused ([`mod@command`]). [`Looks`] is the one mapping
-//! of materials for all readers. What becomes of surfaces, luminaires and the sky is up to
-//! `geometry` and `import`.
+//! [`Scene::read`] goes through the files of a scene as `oconv` does, one after the other:
+//! modifiers by the last definition before they are used, aliases, and commands, of which `xform`
+//! and a few generators are evaluated and all others refused ([`mod@command`]). [`Looks`] is the
+//! one mapping of materials for all readers. What becomes of surfaces, luminaires and the sky is
+//! up to `geometry` and `import`.
 
 mod collector;
 mod command;
