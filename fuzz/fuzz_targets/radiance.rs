@@ -13,7 +13,7 @@ use std::io::{Error, ErrorKind};
 
 /// Most memory in bytes: arrays of few words have up to 2,000,000 primitives, and spheres 2200
 /// triangles each, up to 50,000,000 of a scene.
-const MOST_BYTES: u64 = 8 << 30;
+const MAX_BYTES: u64 = 8 << 30;
 
 struct Named(HashMap<String, Vec<u8>>);
 
@@ -64,7 +64,7 @@ fn examine(bytes: &[u8]) {
 
 fuzz_target!(|bytes: &[u8]| {
     let peak_bytes = allocation_counter::measure(|| examine(bytes)).bytes_max;
-    assert!(peak_bytes <= MOST_BYTES, "{peak_bytes} bytes for a scene of {}", bytes.len());
+    assert!(peak_bytes <= MAX_BYTES, "{peak_bytes} bytes for a scene of {}", bytes.len());
 });
 
 fuzz_mutator!(|bytes: &mut [u8], length: usize, room: usize, key: u32| {

@@ -2,7 +2,7 @@
 
 use super::builder::{MeshBuilder, TriangleError};
 use super::cut::HoleCutter;
-use super::looks;
+use super::material_looks;
 use crate::honeybee::{Face3D, Mesh3D, Model, Point, Shape, Surface, Surfaces, surfaces};
 use crate::project::{Project, UpAxis};
 use crate::radiance::Findings;
@@ -51,7 +51,7 @@ fn read_surfaces(
     builder.measure_file_in(UpAxis::Z, model.unit().metres());
     let numbers: Vec<u32> = materials.iter().map(|(name, _)| builder.material(name)).collect();
     for (&number, (name, look)) in numbers.iter().zip(materials) {
-        looks::describe(number, &name, look, builder, warnings);
+        material_looks::describe(number, &name, look, builder, warnings);
     }
     let mut reader = Reader { builder, cutter: HoleCutter::new(), findings };
     for surface in &surfaces {

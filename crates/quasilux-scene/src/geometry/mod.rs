@@ -18,7 +18,7 @@ mod gltf_elements;
 mod gltf_primitive;
 mod gltf_sparse;
 mod honeybee;
-mod looks;
+mod material_looks;
 mod mtl;
 mod obj;
 mod obj_lines;

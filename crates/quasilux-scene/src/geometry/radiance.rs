@@ -1,7 +1,7 @@
 //! The surfaces of a Radiance scene, with what they are made of.
 
 use super::builder::{MeshBuilder, TriangleError};
-use super::looks;
+use super::material_looks;
 use super::seams::SeamCutter;
 use crate::project::{Project, UpAxis};
 use crate::radiance::{Findings, Look, Scene, Shape, Surface, tessellate};
@@ -53,9 +53,9 @@ fn add(
 ) -> Result<(), LoadError> {
     let Scene { surfaces, materials, .. } = scene;
     let numbers: Vec<u32> = materials.iter().map(|(name, _)| builder.material(name)).collect();
-    let kinds: Vec<Kind> = materials.iter().map(|(_, look)| Kind::of(look)).collect();
+    let kinds: Vec<Kind> = materials.iter().map(|(_, look)| Kind::from_look(look)).collect();
     for (&number, (name, look)) in numbers.iter().zip(materials) {
-        looks::describe(number, &name, look, builder, warnings);
+        material_looks::describe(number, &name, look, builder, warnings);
     }
     let mut reader =
         Reader { builder, cutter: SeamCutter::new(), findings, objects: HashMap::new() };
@@ -65,7 +65,7 @@ fn add(
     Ok(())
 }
 
-/// What of a material matters to its facets.
+/// Properties of a material that matter to its facets.
 struct Kind {
     shines: bool,
     /// A measured sheet: Radiance has its back outdoors, where the front of facets is here.
@@ -73,7 +73,7 @@ struct Kind {
 }
 
 impl Kind {
-    fn of(look: &Look) -> Self {
+    fn from_look(look: &Look) -> Self {
         Self {
             shines: matches!(look, Look::Light(_)),
             is_turned: matches!(look, Look::Sheet { .. }),

@@ -283,7 +283,7 @@ fn sky_point(direction: DVec3) -> SkyPoint {
     SkyPoint { altitude_deg, azimuth_deg }
 }
 
-/// What sky and sun give on a free horizontal plane.
+/// Illuminance of a free horizontal plane by sky and sun.
 fn horizontal_illuminance_lx(outside: &Outside) -> f64 {
     let sun = outside.sun.map_or(0.0, |sun| sun.normal_illuminance_lx * sun.direction.z);
     let sky = match outside.sky {

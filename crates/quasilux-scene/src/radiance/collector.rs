@@ -1,7 +1,7 @@
 //! Goes through the files of a scene: what surfaces there are, and which modifiers.
 
 use super::command::{Command, Source};
-use super::definitions::{Definitions, Link, Place};
+use super::definitions::{Definitions, FilePlace, Link};
 use super::document::{EntryKind, Primitive, shown};
 use super::findings::Findings;
 use super::includes::{Include, Includes, Missing};
@@ -25,7 +25,7 @@ pub(super) struct RawSurface {
     pub(super) name: Arc<str>,
     pub(super) modifier: Link,
     pub(super) shape: Shape,
-    pub(super) place: Place,
+    pub(super) place: FilePlace,
 }
 
 /// Everything that was read so far.
@@ -78,7 +78,7 @@ impl<'f> Collector<'f> {
     ) -> Result<(), LoadError> {
         let file: Arc<str> = include.path.as_ref().into();
         for entry in &include.entries {
-            let place = Place { file: Arc::clone(&file), at: entry.place };
+            let place = FilePlace { file: Arc::clone(&file), at: entry.place };
             let done = match &entry.kind {
                 EntryKind::Primitive(primitive) => self.primitive(primitive, context, &place),
                 EntryKind::Alias(alias) => {
@@ -119,7 +119,7 @@ impl<'f> Collector<'f> {
         &mut self,
         primitive: &Primitive,
         context: &Context,
-        place: &Place,
+        place: &FilePlace,
     ) -> Result<(), Missing> {
         self.count(primitive.reals.len())?;
         if is_modifier(&primitive.kind) {
@@ -135,7 +135,8 @@ impl<'f> Collector<'f> {
             );
             return Err(Missing::Refused(message));
         }
-        let shape = Shape::of(primitive, &context.placement).map_err(Missing::Refused)?;
+        let shape =
+            Shape::from_primitive(primitive, &context.placement).map_err(Missing::Refused)?;
         let modifier = context.modifier.as_ref().unwrap_or(&primitive.modifier);
         let name: Arc<str> = match context.prefix.as_str() {
             "" => Arc::clone(&primitive.name),
@@ -150,7 +151,7 @@ impl<'f> Collector<'f> {
         &mut self,
         command: &Command,
         context: &Context,
-        place: &Place,
+        place: &FilePlace,
         findings: &mut Findings,
     ) -> Result<(), Missing> {
         if context.depth >= MAX_DEPTH {
@@ -170,17 +171,17 @@ impl<'f> Collector<'f> {
         command: &Command,
         stages: usize,
         context: &Context,
-        place: &Place,
+        place: &FilePlace,
         findings: &mut Findings,
     ) -> Result<(), Missing> {
-        let Some(stage) = stages.checked_sub(1) else {
+        let Some(last) = stages.checked_sub(1) else {
             return self.source(&command.source, context, place, findings);
         };
-        let xform = &command.stages[stage];
+        let xform = &command.stages[last];
         for number in 0..xform.transforms.copies() {
             self.count(0)?;
             let inner = inside(xform, number, context)?;
-            self.stages(command, stage, &inner, place, findings)?;
+            self.stages(command, last, &inner, place, findings)?;
         }
         Ok(())
     }
@@ -189,7 +190,7 @@ impl<'f> Collector<'f> {
         &mut self,
         source: &Source,
         context: &Context,
-        place: &Place,
+        place: &FilePlace,
         findings: &mut Findings,
     ) -> Result<(), Missing> {
         match source {
@@ -209,7 +210,7 @@ impl<'f> Collector<'f> {
     }
 
     /// The refusal of a name that nothing has.
-    pub(super) fn undefined(&self, name: &str, place: &Place) -> LoadError {
+    pub(super) fn undefined(&self, name: &str, place: &FilePlace) -> LoadError {
         let message = format!(
             "no modifier is called \"{}\"; expected one of the scene, or a file with it beside the \
              others",

@@ -17,7 +17,7 @@ pub(super) enum Link {
 
 /// A place in one of the files of a scene.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Place {
+pub(super) struct FilePlace {
     pub(super) file: Arc<str>,
     pub(super) at: Position,
 }
@@ -30,7 +30,7 @@ pub(super) struct Definition {
     /// Name by which surfaces have it; an alias gives another one.
     pub(super) name: Arc<str>,
     pub(super) frame: Frame,
-    pub(super) place: Place,
+    pub(super) place: FilePlace,
 }
 
 /// All modifiers so far.
@@ -62,7 +62,7 @@ impl Definitions {
     }
 
     /// Adds a modifier.
-    pub(super) fn add(&mut self, primitive: Arc<Primitive>, frame: Frame, place: Place) {
+    pub(super) fn add(&mut self, primitive: Arc<Primitive>, frame: Frame, place: FilePlace) {
         let (name, modifier) = (Arc::clone(&primitive.name), self.link(&primitive.modifier));
         self.push(Definition { modifier, primitive, name, frame, place });
     }

@@ -47,7 +47,7 @@ struct Bounds {
 
 impl Bounds {
     /// In a frame of these columns.
-    fn of(shape: &Shape, axes: [DVec3; 3]) -> Self {
+    fn from_shape(shape: &Shape, axes: [DVec3; 3]) -> Self {
         let along = |point: DVec3| DVec3::from_array(axes.map(|axis| axis.dot(point)));
         let disc = |normal: DVec3, radius: f64| {
             let reach = |axis: DVec3| radius * axis.cross(normal).length();
@@ -95,7 +95,7 @@ pub(super) fn groups(shapes: &[&Shape]) -> Vec<Vec<usize>> {
         return (0..shapes.len()).map(|index| vec![index]).collect();
     }
     let axes = [DVec3::X, DVec3::Y, DVec3::Z];
-    let bounds: Vec<Bounds> = shapes.iter().map(|shape| Bounds::of(shape, axes)).collect();
+    let bounds: Vec<Bounds> = shapes.iter().map(|shape| Bounds::from_shape(shape, axes)).collect();
     let mut group_of: Vec<usize> = (0..shapes.len()).collect();
     for a in 0..shapes.len() {
         for b in 0..a {
@@ -150,7 +150,7 @@ impl Source<'_> {
         let turn = emitter.world_from_luminaire;
         let table = SphericalTable::new(emitter.grid()?).map_err(|error| error.to_string())?;
         let axes = [turn.x_axis, turn.y_axis, turn.z_axis];
-        let all = shapes.iter().map(|shape| Bounds::of(shape, axes));
+        let all = shapes.iter().map(|shape| Bounds::from_shape(shape, axes));
         let Some(bounds) = all.reduce(Bounds::with) else { return Ok(None) };
         let opening = opening(shapes, &bounds, turn.z_axis);
         let is_area = opening != LuminousOpening::default();
@@ -228,5 +228,5 @@ fn facts(name: &str, opening: LuminousOpening) -> LuminaireFacts {
 
 /// Arguments of a pattern that is a distribution of light.
 pub(super) fn distribution_of(definition: &Definition) -> Option<Arguments<'_>> {
-    Arguments::of(definition).filter(Arguments::is_of_source)
+    Arguments::from_definition(definition).filter(Arguments::is_of_source)
 }

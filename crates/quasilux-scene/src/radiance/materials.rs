@@ -90,7 +90,7 @@ pub(super) fn shines(kind: &str) -> bool {
     matches!(kind, "light" | "illum" | "glow" | "spotlight")
 }
 
-/// What a material is read from, beside its own primitive.
+/// Files and findings that a material is read with.
 pub(super) struct Reading<'r, 'f> {
     pub(super) includes: &'r mut Includes<'f>,
     pub(super) findings: &'r mut Findings,
@@ -119,7 +119,7 @@ impl Of<'_> {
         format!("{} {what}", self.place)
     }
 
-    /// So many real arguments.
+    /// Exactly `N` real arguments.
     fn reals<const N: usize>(&self) -> Result<[f64; N], String> {
         let reals = self.primitive.reals.as_slice();
         let found = reals.len();

@@ -95,7 +95,7 @@ impl Outside {
         } else if far.direction.z.abs() < 0.999 {
             note("a sky that is not upright is left out");
         } else {
-            match Model::of(&far.patterns) {
+            match Model::from_patterns(&far.patterns) {
                 Err(what) => note(what),
                 Ok(model) => {
                     let is_all = far.angle_deg > 360.0 - HEMISPHERE_DEG + 10.0;
@@ -156,7 +156,7 @@ impl Outside {
 
 impl Model {
     /// Of the patterns of a glow.
-    fn of(patterns: &[&Definition]) -> Result<Self, &'static str> {
+    fn from_patterns(patterns: &[&Definition]) -> Result<Self, &'static str> {
         let [pattern] = patterns else {
             let other = "a sky of several patterns is left out";
             return if patterns.is_empty() { Ok(Self::Plain) } else { Err(other) };

@@ -16,7 +16,7 @@ use std::rc::Rc;
 /// A distribution around a frame of its own.
 #[derive(Clone, Debug)]
 pub(super) struct Distribution {
-    correction: Correction,
+    correction: Scaling,
     pub(super) coordinates: Vec<Coordinate>,
     pub(super) data: Rc<Data>,
     pub(super) frame: Frame,
@@ -24,7 +24,7 @@ pub(super) struct Distribution {
 
 /// Factor on the values of the data.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Correction {
+enum Scaling {
     /// As it is.
     Plain(f64),
     /// Over the cosine at the surface.
@@ -66,7 +66,7 @@ impl Coordinate {
     }
 
     /// Of a direction in which light leaves.
-    fn of(self, direction: DVec3) -> f64 {
+    fn angle_deg(self, direction: DVec3) -> f64 {
         let DVec3 { x, y, z } = direction;
         let phi = || libm::atan2(y, x).to_degrees().rem_euclid(360.0);
         let folded = |angle: f64, most: f64| {
@@ -98,8 +98,8 @@ pub(super) struct Arguments<'d> {
 }
 
 impl<'d> Arguments<'d> {
-    /// Those of a definition; `None` where it is something else.
-    pub(super) fn of(definition: &'d Definition) -> Option<Self> {
+    /// Arguments of a definition; `None` where it is something else.
+    pub(super) fn from_definition(definition: &'d Definition) -> Option<Self> {
         let primitive = &definition.primitive;
         let [function, data_file, functions, rest @ ..] = primitive.strings.as_slice() else {
             return None;
@@ -150,12 +150,12 @@ impl<'d> Arguments<'d> {
             side.ok_or_else(|| "its real arguments are no lengths".to_owned())
         };
         let correction = match self.function {
-            "corr" | "noop" => Correction::Plain(first(Some(1.0))?),
-            "flatcorr" => Correction::Flat(first(Some(1.0))?),
+            "corr" | "noop" => Scaling::Plain(first(Some(1.0))?),
+            "flatcorr" => Scaling::Flat(first(Some(1.0))?),
             "boxcorr" | "lboxcorr" => {
-                Correction::Box(first(None)?, DVec3::new(side(1)?, side(2)?, side(3)?))
+                Scaling::Box(first(None)?, DVec3::new(side(1)?, side(2)?, side(3)?))
             }
-            "cylcorr" => Correction::Cylinder(first(None)?, [side(1)?, side(2)?]),
+            "cylcorr" => Scaling::Cylinder(first(None)?, [side(1)?, side(2)?]),
             other => {
                 return Err(format!(
                     "the function {} is not known; expected flatcorr, boxcorr, cylcorr or corr",
@@ -182,22 +182,22 @@ impl<'d> Arguments<'d> {
 impl Distribution {
     /// Whether the radiance grows as a surface is seen from the side.
     pub(super) fn is_flat(&self) -> bool {
-        matches!(self.correction, Correction::Flat(_))
+        matches!(self.correction, Scaling::Flat(_))
     }
 
     /// Factor on the radiance of the material toward a direction of the distribution's own frame;
     /// for flat surfaces times the cosine.
     pub(super) fn factor(&self, direction: DVec3) -> f64 {
-        let at: Vec<f64> = self.coordinates.iter().map(|it| it.of(direction)).collect();
+        let at: Vec<f64> = self.coordinates.iter().map(|it| it.angle_deg(direction)).collect();
         let value = self.data.value(&at);
         let DVec3 { x, y, z } = direction.abs();
         match self.correction {
-            Correction::Plain(factor) | Correction::Flat(factor) => factor * value,
-            Correction::Box(factor, sides) => {
+            Scaling::Plain(factor) | Scaling::Flat(factor) => factor * value,
+            Scaling::Box(factor, sides) => {
                 let shown = x * sides.y * sides.z + y * sides.x * sides.z + z * sides.x * sides.y;
                 if shown > 0.0 { factor * value / shown } else { 0.0 }
             }
-            Correction::Cylinder(factor, [diameter, height]) => {
+            Scaling::Cylinder(factor, [diameter, height]) => {
                 let side = diameter * height * (1.0 - z * z).max(0.0).sqrt();
                 let shown = side + 0.25 * PI * diameter * diameter * z;
                 if shown > 0.0 { factor * value / shown } else { 0.0 }

@@ -2,7 +2,7 @@
 
 use super::collector::{Collector, RawSurface};
 use super::data::Data;
-use super::definitions::{Definition, Definitions, Link, Place};
+use super::definitions::{Definition, Definitions, FilePlace, Link};
 use super::document::shown;
 use super::findings::Findings;
 use super::includes::Includes;
@@ -198,7 +198,7 @@ impl Sorter<'_, '_> {
     }
 
     /// All modifiers from a link on.
-    fn chain_of(&mut self, link: &Link, place: &Place) -> Result<Chain, LoadError> {
+    fn chain_of(&mut self, link: &Link, place: &FilePlace) -> Result<Chain, LoadError> {
         let link = self.definitions().settled(link);
         let first = match &link {
             Link::Void => return Ok(Chain::default()),
@@ -343,7 +343,7 @@ impl Sorter<'_, '_> {
         self.scene.lamps.append(&mut made);
         if self.scene.lamps.len() > MAX_LAMPS {
             let message = format!("more than {MAX_LAMPS} luminaires; expected fewer");
-            let Place { file, at } = &definition.place;
+            let FilePlace { file, at } = &definition.place;
             return Err(LoadError::new(file, Some(*at), message));
         }
         Ok(())
@@ -364,7 +364,7 @@ impl Sorter<'_, '_> {
         }
         for &number in &chain.patterns {
             let pattern = self.definitions().get(number).clone();
-            let arguments = Arguments::of(&pattern);
+            let arguments = Arguments::from_definition(&pattern);
             let arguments = arguments.filter(|it| it.is_of_source() || it.tilt_deg().is_some());
             let Some(arguments) = arguments else {
                 let name = shown(&pattern.name);

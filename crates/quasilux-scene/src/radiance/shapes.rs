@@ -63,7 +63,10 @@ pub(super) fn is_surface(kind: &str) -> bool {
 
 impl Shape {
     /// The shape of a surface, as it is put; `Err` says what was expected.
-    pub(super) fn of(primitive: &Primitive, placement: &Placement) -> Result<Self, String> {
+    pub(super) fn from_primitive(
+        primitive: &Primitive,
+        placement: &Placement,
+    ) -> Result<Self, String> {
         let Placement { frame, is_inverted } = placement;
         let reals = primitive.reals.as_slice();
         let vector = |at: usize| DVec3::new(reals[at], reals[at + 1], reals[at + 2]);
@@ -101,22 +104,32 @@ impl Shape {
             }
             "ring" => {
                 needs(8)?;
-                let normal = frame.direction(vector(3)).try_normalize();
-                let normal = normal.ok_or_else(|| of(primitive, "a normal of no length"))?;
-                let normal = if *is_inverted { -normal } else { normal };
-                let (a, b) = (radius(6), radius(7));
-                let (inner_radius, outer_radius) = (a.min(b), a.max(b));
-                Self::Ring { centre: point(0), normal, inner_radius, outer_radius }
+                Self::ring(primitive, placement)?
             }
             "source" => {
                 needs(4)?;
                 let direction = frame.direction(vector(0)).try_normalize();
-                let direction = direction.ok_or_else(|| of(primitive, "no direction"))?;
+                let direction = direction.ok_or_else(|| about(primitive, "no direction"))?;
                 Self::Source { direction, angle_deg: reals[3].abs() }
             }
-            "mesh" => return Err(of(primitive, MESH)),
-            _ => return Err(of(primitive, INSTANCE)),
+            "mesh" => return Err(about(primitive, MESH)),
+            _ => return Err(about(primitive, INSTANCE)),
         })
+    }
+}
+
+impl Shape {
+    /// A ring by its 8 real arguments.
+    fn ring(primitive: &Primitive, placement: &Placement) -> Result<Self, String> {
+        let Placement { frame, is_inverted } = placement;
+        let reals = primitive.reals.as_slice();
+        let vector = |at: usize| DVec3::new(reals[at], reals[at + 1], reals[at + 2]);
+        let normal = frame.direction(vector(3)).try_normalize();
+        let normal = normal.ok_or_else(|| about(primitive, "a normal of no length"))?;
+        let normal = if *is_inverted { -normal } else { normal };
+        let [a, b] = [6, 7].map(|at| reals[at].abs() * frame.scale);
+        let centre = frame.point(vector(0));
+        Ok(Self::Ring { centre, normal, inner_radius: a.min(b), outer_radius: a.max(b) })
     }
 }
 
@@ -125,7 +138,7 @@ const MESH: &str = "a compiled mesh, which is not read; convert the OBJ file tha
 const INSTANCE: &str = "an octree, which is not read; name the scene file that it was made of by \
                         !xform in its place";
 
-fn of(primitive: &Primitive, what: &str) -> String {
+fn about(primitive: &Primitive, what: &str) -> String {
     format!("{} \"{}\" has {what}", primitive.kind, shown(&primitive.name))
 }
 
@@ -134,5 +147,5 @@ fn expect(primitive: &Primitive, is_fine: bool, count: &str) -> Result<(), Strin
         return Ok(());
     }
     let found = primitive.reals.len();
-    Err(of(primitive, &format!("{found} real arguments; expected {count}")))
+    Err(about(primitive, &format!("{found} real arguments; expected {count}")))
 }

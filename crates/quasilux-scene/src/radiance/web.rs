@@ -55,7 +55,7 @@ enum Part {
 
 impl Part {
     /// `None` for surfaces that do not shine outward.
-    fn of(shape: &Shape) -> Option<Self> {
+    fn from_shape(shape: &Shape) -> Option<Self> {
         Some(match shape {
             Shape::Polygon(corners) => {
                 let origin = corners[0];
@@ -123,7 +123,8 @@ impl Emitter {
         distribution: Option<Distribution>,
         cone: Option<Cone>,
     ) -> Option<Self> {
-        let parts = shapes.iter().map(|shape| Part::of(shape)).collect::<Option<Vec<_>>>()?;
+        let parts =
+            shapes.iter().map(|shape| Part::from_shape(shape)).collect::<Option<Vec<_>>>()?;
         let turn = match (&distribution, cone) {
             (Some(distribution), _) => distribution.frame.turn,
             (None, Some(cone)) => {

@@ -13,7 +13,7 @@ use std::path::Path;
 /// Writes the project and what it names, and says what of the model is not in it.
 pub(crate) fn import(arguments: &ImportArguments) -> Result<Exit, CliError> {
     let ImportArguments { models, out, weather, points, views } = arguments;
-    let model = Model::of(models, points, views)?;
+    let model = Model::from_files(models, points, views)?;
     if out.exists() {
         let message = "is there already; give --out another name, or remove it";
         return Err(CliError::in_file(out.display(), None, message));

@@ -42,7 +42,7 @@ impl Model {
     ///
     /// # Errors
     /// For files that are no model, or not one of them.
-    pub(crate) fn of(
+    pub(crate) fn from_files(
         files: &[PathBuf],
         points: &[PathBuf],
         views: &[PathBuf],

