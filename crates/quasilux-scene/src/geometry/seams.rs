@@ -21,16 +21,17 @@ pub(super) struct Cut {
 pub(super) struct SeamCutter {
     polygons: Cutter,
     holes: HoleCutter,
+    steps_left: u64,
 }
 
 /// Share of the area that triangles may be off.
 const SAME: f64 = 1e-6;
-/// Most corners of an outline that seams are looked for in.
-const MAX_CORNERS: usize = 4000;
+/// Most pairs of edges that are compared for the seams of all outlines.
+const MAX_STEPS: u64 = 500_000_000;
 
 impl SeamCutter {
     pub(super) fn new() -> Self {
-        Self { polygons: Cutter::default(), holes: HoleCutter::new() }
+        Self { polygons: Cutter::default(), holes: HoleCutter::new(), steps_left: MAX_STEPS }
     }
 
     /// Triangles of an outline, counter-clockwise seen as it is.
@@ -47,7 +48,7 @@ impl SeamCutter {
         if is_same(&plain.triangles, area) {
             return Ok(plain);
         }
-        let mut loops = loops(&corners);
+        let mut loops = loops(&corners, &mut self.steps_left)?;
         loops.retain(|corners| corners.len() > 2);
         let largest = |a: &Vec<DVec3>, b: &Vec<DVec3>| {
             area_vector(a).length().total_cmp(&area_vector(b).length())
@@ -90,18 +91,29 @@ fn without_repeats(corners: &[DVec3]) -> Vec<DVec3> {
 }
 
 /// The loops of an outline without its seams.
-fn loops(corners: &[DVec3]) -> Vec<Vec<DVec3>> {
+fn loops(corners: &[DVec3], steps_left: &mut u64) -> Result<Vec<Vec<DVec3>>, String> {
     let size = corners.iter().map(|it| (*it - corners[0]).length()).fold(0.0, f64::max);
     let near = |a: DVec3, b: DVec3| (a - b).length() <= 1e-7 * size;
     let mut done = Vec::new();
     let mut open = vec![corners.to_vec()];
     while let Some(corners) = open.pop() {
         let n = corners.len();
-        let seam = (0..n).filter(|_| n <= MAX_CORNERS).find_map(|i| {
+        let mut steps = 0;
+        let seam = (0..n).find_map(|i| {
+            steps += (n - i) as u64;
+            if steps > *steps_left {
+                return Some([0, 0]);
+            }
             let (from, to) = (corners[i], corners[(i + 1) % n]);
             let back = |&j: &usize| near(corners[j], to) && near(corners[(j + 1) % n], from);
             (i + 1..n).find(back).map(|j| [i, j])
         });
+        *steps_left = steps_left.checked_sub(steps).ok_or_else(|| {
+            format!(
+                "up to here polygons that are not simple have more than {MAX_STEPS} pairs of \
+                 edges; expected fewer corners"
+            )
+        })?;
         let Some([i, j]) = seam else {
             done.push(corners);
             continue;
@@ -111,7 +123,7 @@ fn loops(corners: &[DVec3]) -> Vec<Vec<DVec3>> {
         let rest: Vec<DVec3> = corners[j + 1..].iter().chain(&corners[..i]).copied().collect();
         open.extend([without_repeats(&inner), without_repeats(&rest)]);
     }
-    done
+    Ok(done)
 }
 
 #[cfg(test)]
@@ -151,6 +163,16 @@ mod tests {
         let turned = [&window[..], &[[0.0, 0.0], [4.0, 0.0], [4.0, 3.0], [0.0, 3.0], [0.0, 0.0]]];
         expect(&turned.concat(), 11.0);
         expect(&[[0.0, 0.0], [0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0], [0.0, 0.0]], 2.0);
+    }
+
+    /// Outlines that cross themselves are searched for seams, and that has an end.
+    #[test]
+    fn outlines_of_many_corners_end() {
+        let point = |at: usize| DVec3::new((at % 2) as f64, (at / 2) as f64, 0.0);
+        let corners: Vec<DVec3> = (0..100_000).map(point).collect();
+        let mut left = 1_000_000;
+        let error = loops(&corners, &mut left).unwrap_err();
+        assert!(error.contains("pairs of edges"), "{error}");
     }
 
     #[test]

@@ -104,7 +104,7 @@ impl Writer<'_> {
     fn luminaires(&mut self, lamps: &[Lamp]) -> usize {
         let mut known: HashMap<&str, String> = HashMap::new();
         for lamp in lamps {
-            let file = match known.get(lamp.ies.as_str()) {
+            let file = match known.get(&*lamp.ies) {
                 Some(file) => file.clone(),
                 None => {
                     let wanted = format!("{}-{}", self.terms.stem, lamp.name);
@@ -242,8 +242,12 @@ impl Writer<'_> {
     fn views(&mut self, file: &str, bytes: &[u8]) -> Result<bool, LoadError> {
         let mut has_one = false;
         for line in views(file, bytes)? {
+            let place = format!("{file}:{}", line.line);
+            if let Some(note) = line.note {
+                self.findings.note(&place, note);
+            }
             match line.view {
-                Err(note) => self.findings.note(&format!("{file}:{}", line.line), note),
+                Err(note) => self.findings.note(&place, note),
                 Ok(view) => {
                     self.view(&view, stem(file));
                     has_one = true;

@@ -76,7 +76,9 @@ fn of_file(
         None => Ok(grey()),
         Some(FileScattering::Described(bsdf)) => Ok((**bsdf).clone()),
         Some(FileScattering::Unknown(refusal)) => {
-            Err(LoadError::new(&material.file, None, refusal))
+            let place = refusal.place.as_ref();
+            let file = place.map_or(material.file.as_str(), |(file, _)| &**file);
+            Err(LoadError::new(file, place.map(|(_, at)| *at), &refusal.message))
         }
         Some(FileScattering::Sheet { name, xml, up }) => {
             let name = format!("{}#{name}", material.file);

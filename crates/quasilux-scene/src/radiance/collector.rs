@@ -7,8 +7,9 @@ use super::findings::Findings;
 use super::includes::{Include, Includes, Missing};
 use super::materials::is_modifier;
 use super::shapes::{Placement, Shape, is_surface};
-use super::xform::Xform;
+use super::xform::{MAX_COPIES, Xform};
 use crate::LoadError;
+use std::collections::HashMap;
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -16,6 +17,8 @@ use std::sync::Arc;
 const MAX_PRIMITIVES: u64 = 2_000_000;
 /// Most numbers of all of them.
 const MAX_REALS: u64 = 40_000_000;
+/// Most steps of `xform` for all copies.
+const MAX_STEPS: u64 = 20_000_000;
 /// Most files, each of which names the next.
 const MAX_DEPTH: usize = 32;
 
@@ -35,6 +38,9 @@ pub(super) struct Collector<'f> {
     pub(super) surfaces: Vec<RawSurface>,
     primitives_left: u64,
     reals_left: u64,
+    steps_left: u64,
+    /// By their files and numbers therein; each is read once.
+    commands: HashMap<(*const Include, usize), Rc<Command>>,
 }
 
 /// How a file is put into the scene.
@@ -56,6 +62,8 @@ impl<'f> Collector<'f> {
             surfaces: Vec::new(),
             primitives_left: MAX_PRIMITIVES,
             reals_left: MAX_REALS,
+            steps_left: MAX_STEPS,
+            commands: HashMap::new(),
         }
     }
 
@@ -76,9 +84,9 @@ impl<'f> Collector<'f> {
         context: &Context,
         findings: &mut Findings,
     ) -> Result<(), LoadError> {
-        let file: Arc<str> = include.path.as_ref().into();
-        for entry in &include.entries {
-            let place = FilePlace { file: Arc::clone(&file), at: entry.place };
+        let file = &include.path;
+        for (number, entry) in include.entries.iter().enumerate() {
+            let place = FilePlace { file: Arc::clone(file), at: entry.place };
             let done = match &entry.kind {
                 EntryKind::Primitive(primitive) => self.primitive(primitive, context, &place),
                 EntryKind::Alias(alias) => {
@@ -87,27 +95,46 @@ impl<'f> Collector<'f> {
                         None => Err(Missing::Wrong(self.undefined(&alias.reference, &place))),
                     })
                 }
-                EntryKind::Command(text) => match Command::parse(text) {
-                    Err(message) => Err(Missing::Refused(message)),
-                    Ok(command) => self.command(&command, context, &place, findings),
-                },
+                EntryKind::Command(text) => self
+                    .parsed((Rc::as_ptr(include), number), text)
+                    .and_then(|command| self.command(&command, context, &place, findings)),
             };
             done.map_err(|missing| match missing {
-                Missing::Refused(message) => LoadError::new(&file, Some(entry.place), message),
+                Missing::Refused(message) => LoadError::new(file, Some(entry.place), message),
                 Missing::Wrong(error) => error,
             })?;
         }
         Ok(())
     }
 
+    fn parsed(&mut self, key: (*const Include, usize), text: &str) -> Result<Rc<Command>, Missing> {
+        if let Some(known) = self.commands.get(&key) {
+            return Ok(Rc::clone(known));
+        }
+        let command = Rc::new(Command::parse(text).map_err(Missing::Refused)?);
+        self.commands.insert(key, Rc::clone(&command));
+        Ok(command)
+    }
+
     /// Takes one primitive off what a scene may have.
     fn count(&mut self, reals: usize) -> Result<(), Missing> {
-        let left =
-            self.primitives_left.checked_sub(1).zip(self.reals_left.checked_sub(reals as u64));
+        self.take(1, reals)
+    }
+
+    /// Takes memory of so many numbers off.
+    fn charge(&mut self, reals: usize) -> Result<(), Missing> {
+        self.take(0, reals)
+    }
+
+    fn take(&mut self, primitives: u64, reals: usize) -> Result<(), Missing> {
+        let left = self
+            .primitives_left
+            .checked_sub(primitives)
+            .zip(self.reals_left.checked_sub(reals as u64));
         let Some((primitives, reals)) = left else {
             let message = format!(
                 "up to here the scene has more than {MAX_PRIMITIVES} primitives, or {MAX_REALS} \
-                 numbers in them, those in arrays counted each time; expected fewer"
+                 numbers and words in them, those in arrays counted each time; expected fewer"
             );
             return Err(Missing::Refused(message));
         };
@@ -117,14 +144,14 @@ impl<'f> Collector<'f> {
 
     fn primitive(
         &mut self,
-        primitive: &Primitive,
+        primitive: &Arc<Primitive>,
         context: &Context,
         place: &FilePlace,
     ) -> Result<(), Missing> {
-        self.count(primitive.reals.len())?;
+        self.count(primitive.weight())?;
         if is_modifier(&primitive.kind) {
             let frame = context.placement.frame;
-            self.definitions.add(Arc::new(primitive.clone()), frame, place.clone());
+            self.definitions.add(Arc::clone(primitive), frame, place.clone());
             return Ok(());
         }
         if !is_surface(&primitive.kind) {
@@ -140,7 +167,10 @@ impl<'f> Collector<'f> {
         let modifier = context.modifier.as_ref().unwrap_or(&primitive.modifier);
         let name: Arc<str> = match context.prefix.as_str() {
             "" => Arc::clone(&primitive.name),
-            prefix => format!("{prefix}{}", primitive.name).into(),
+            prefix => {
+                self.charge((prefix.len() + primitive.name.len()) / 8)?;
+                format!("{prefix}{}", primitive.name).into()
+            }
         };
         let modifier = self.definitions.link(modifier);
         self.surfaces.push(RawSurface { name, modifier, shape, place: place.clone() });
@@ -161,27 +191,28 @@ impl<'f> Collector<'f> {
             );
             return Err(Missing::Refused(message));
         }
-        let context = Context { depth: context.depth + 1, ..context.clone() };
-        self.stages(command, command.stages.len(), &context, place, findings)
-    }
-
-    /// Applies the outermost of the first so many stages, and then the others.
-    fn stages(
-        &mut self,
-        command: &Command,
-        stages: usize,
-        context: &Context,
-        place: &FilePlace,
-        findings: &mut Findings,
-    ) -> Result<(), Missing> {
-        let Some(last) = stages.checked_sub(1) else {
-            return self.source(&command.source, context, place, findings);
-        };
-        let xform = &command.stages[last];
-        for number in 0..xform.transforms.copies() {
+        let copies = |all: u64, stage: &Xform| all.checked_mul(stage.transforms.copies());
+        let copies = command.stages.iter().try_fold(1, copies);
+        let copies = copies.filter(|&copies| copies <= MAX_COPIES).ok_or_else(|| {
+            Missing::Refused(format!("the arrays of a pipeline make more than {MAX_COPIES} copies"))
+        })?;
+        let steps: u64 = command.stages.iter().map(|stage| stage.transforms.steps()).sum();
+        self.steps_left = self.steps_left.checked_sub(copies * steps).ok_or_else(|| {
+            Missing::Refused(format!(
+                "up to here the copies of xform take more than {MAX_STEPS} steps; expected fewer"
+            ))
+        })?;
+        for copy in 0..copies {
             self.count(0)?;
-            let inner = inside(xform, number, context)?;
-            self.stages(command, last, &inner, place, findings)?;
+            let mut inner = Context { depth: context.depth + 1, ..context.clone() };
+            let (mut rest, mut left) = (copy, copies);
+            // The last program of a pipeline moves what the others have made.
+            for stage in command.stages.iter().rev() {
+                left /= stage.transforms.copies();
+                inner = inside(stage, rest / left, &inner)?;
+                rest %= left;
+            }
+            self.source(&command.source, &inner, place, findings)?;
         }
         Ok(())
     }
@@ -195,8 +226,11 @@ impl<'f> Collector<'f> {
     ) -> Result<(), Missing> {
         match source {
             Source::Generated(generator) => {
+                for &remark in generator.remarks() {
+                    findings.note(&format!("{}:{}", place.file, place.at.line), remark);
+                }
                 for primitive in generator.primitives() {
-                    self.primitive(&primitive, context, place)?;
+                    self.primitive(&Arc::new(primitive), context, place)?;
                 }
             }
             Source::Files(names) => {

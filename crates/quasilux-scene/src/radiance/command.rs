@@ -4,6 +4,11 @@ use super::generators::Generator;
 use super::refusal::not_run;
 use super::xform::Xform;
 
+/// Most programs of a pipeline.
+const MAX_STAGES: usize = 64;
+/// Longest word of a command in bytes.
+const MAX_WORD: usize = 1000;
+
 /// A command that stands for entries.
 #[derive(Clone, Debug)]
 pub(super) struct Command {
@@ -23,7 +28,14 @@ pub(super) enum Source {
 impl Command {
     /// Reads the text behind the `!`.
     pub(super) fn parse(text: &str) -> Result<Self, String> {
-        let mut stages = split(text)?.into_iter();
+        let stages = split(text)?;
+        if stages.len() > MAX_STAGES {
+            return Err(format!("a pipeline of more than {MAX_STAGES} programs; expected fewer"));
+        }
+        if stages.iter().flatten().any(|word| word.len() > MAX_WORD) {
+            return Err(format!("a word of more than {MAX_WORD} bytes; expected a shorter one"));
+        }
+        let mut stages = stages.into_iter();
         let first = stages.next().filter(|words| !words.is_empty());
         let first = first.ok_or_else(|| "a command without a name".to_owned())?;
         let name = program(&first[0]);
@@ -71,9 +83,15 @@ fn split(text: &str) -> Result<Vec<Vec<String>>, String> {
     while let Some(c) = characters.next() {
         match c {
             '"' | '\'' => {
-                let within: String = characters.by_ref().take_while(|&it| it != c).collect();
-                word.get_or_insert_default().push_str(&within);
+                let rest = characters.as_str();
+                let Some((within, rest)) = rest.split_once(c) else {
+                    return Err(format!("a quote ({c}) that does not end; expected another one"));
+                };
+                word.get_or_insert_default().push_str(within);
+                characters = rest.chars();
             }
+            // A comment of the shell.
+            '#' if word.is_none() => break,
             '\\' => word.get_or_insert_default().extend(characters.next()),
             '|' | ' ' | '\t' | '\r' | '\n' => {
                 let last = stages.last_mut().expect("a stage is there from the start");
@@ -115,6 +133,14 @@ mod tests {
     }
 
     #[test]
+    fn comments_end_a_command() {
+        let Source::Files(files) = Command::parse("xform a#1.rad # north").unwrap().source else {
+            panic!("files")
+        };
+        assert_eq!(files, ["a#1.rad"]);
+    }
+
+    #[test]
     fn everything_else_is_refused_by_name() {
         assert!(refusal("rm -rf x").contains("\"rm\" is not run"));
         assert!(refusal("cat a.rad").contains("\"cat\" is not run"));
@@ -123,6 +149,11 @@ mod tests {
         assert!(refusal("xform $(rm b)").contains("asks for a shell"));
         assert!(refusal("xform a.rad > b").contains("asks for a shell"));
         assert!(refusal("xform -t 1 2 3").contains("names no file"));
+        assert!(refusal("xform \"a.rad").contains("does not end"));
+        let pipeline = format!("genbox m b 1 1 1{}", "|xform".repeat(100_000));
+        assert!(refusal(&pipeline).contains("more than 64 programs"));
+        let name = "n".repeat(2000);
+        assert!(refusal(&format!("genblinds m {name} 1 1 1 9 0")).contains("more than 1000 bytes"));
         assert!(refusal("").contains("without a name"));
         assert!(refusal("xform a.rad |").contains("behind |"));
         assert!(refusal("xform a.rad | xform b.rad").contains("no file"));

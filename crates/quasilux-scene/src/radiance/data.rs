@@ -18,23 +18,32 @@ pub(super) struct Data {
 }
 
 struct Numbers<'t> {
-    words: Box<dyn Iterator<Item = &'t str> + 't>,
+    /// With the numbers of their lines.
+    words: Box<dyn Iterator<Item = (usize, &'t str)> + 't>,
+    /// Of the last word.
+    line: usize,
 }
 
 impl Numbers<'_> {
     fn next(&mut self, expected: &str) -> Result<f64, String> {
-        let word = self.words.next().ok_or_else(|| format!("it ends; expected {expected}"))?;
+        let word = self.words.next();
+        let (line, word) = word.ok_or_else(|| format!("it ends; expected {expected}"))?;
+        self.line = line;
         let number = word.parse().ok().filter(|number: &f64| number.is_finite());
         number.ok_or_else(|| {
             let found = super::document::shown(word);
-            format!("it has {found}; expected {expected}, a number")
+            format!("line {line} has {found}; expected {expected}, a number")
         })
     }
 
     fn count(&mut self, expected: &str, most: usize) -> Result<usize, String> {
         let number = self.next(expected)?;
         let is_count = number.fract() == 0.0 && number >= 1.0 && number <= most as f64;
-        if is_count { Ok(number as usize) } else { Err(format!("{number} is not {expected}")) }
+        if is_count {
+            Ok(number as usize)
+        } else {
+            Err(format!("{number} in line {} is not {expected}", self.line))
+        }
     }
 }
 
@@ -42,8 +51,10 @@ impl Data {
     /// Reads a file; `Err` says what was expected.
     pub(super) fn parse(text: &str) -> Result<Self, String> {
         let uncommented = text.lines().map(|line| line.split('#').next().unwrap_or_default());
-        let words = Box::new(uncommented.flat_map(str::split_whitespace));
-        let mut numbers = Numbers { words };
+        let words = (1..)
+            .zip(uncommented)
+            .flat_map(|(line, text)| text.split_whitespace().map(move |word| (line, word)));
+        let mut numbers = Numbers { words: Box::new(words), line: 1 };
         let dimensions = numbers.count("the number of coordinates, 1 or 2", 2)?;
         let mut axes = Vec::new();
         let mut count = 1_usize;
@@ -51,10 +62,13 @@ impl Data {
             let mut axis = axis(&mut numbers)?;
             count = count.saturating_mul(axis.len());
             if axis.len() > 1 && axis[0] > axis[1] {
-                return Err("its positions fall; expected rising ones".to_owned());
+                return Err(format!(
+                    "its positions up to line {} fall; expected rising ones",
+                    numbers.line
+                ));
             }
             if !axis.windows(2).all(|pair| pair[0] < pair[1]) {
-                return Err("its positions do not rise".to_owned());
+                return Err(format!("its positions up to line {} do not rise", numbers.line));
             }
             axes.push(std::mem::take(&mut axis));
         }
@@ -163,5 +177,7 @@ mod tests {
         {
             assert!(Data::parse(wrong).is_err(), "{wrong}");
         }
+        let error = Data::parse("1\n0 9 2\n# x\n1 x").unwrap_err();
+        assert!(error.contains("line 4 has x"), "{error}");
     }
 }

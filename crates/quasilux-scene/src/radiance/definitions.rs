@@ -26,6 +26,8 @@ pub(super) struct FilePlace {
 #[derive(Clone, Debug)]
 pub(super) struct Definition {
     pub(super) modifier: Link,
+    /// What an `illum` is where it does not shine, as it was defined then.
+    pub(super) alternate: Option<Link>,
     pub(super) primitive: Arc<Primitive>,
     /// Name by which surfaces have it; an alias gives another one.
     pub(super) name: Arc<str>,
@@ -64,7 +66,10 @@ impl Definitions {
     /// Adds a modifier.
     pub(super) fn add(&mut self, primitive: Arc<Primitive>, frame: Frame, place: FilePlace) {
         let (name, modifier) = (Arc::clone(&primitive.name), self.link(&primitive.modifier));
-        self.push(Definition { modifier, primitive, name, frame, place });
+        let alternate = primitive.strings.first();
+        let alternate = alternate.filter(|name| &*primitive.kind == "illum" && &***name != "void");
+        let alternate = alternate.map(|name| self.link(name));
+        self.push(Definition { modifier, alternate, primitive, name, frame, place });
     }
 
     fn push(&mut self, definition: Definition) {
@@ -97,6 +102,10 @@ impl Definitions {
             Link::Open(name) => self.first.get(name).unwrap_or(link).clone(),
             _ => link.clone(),
         }
+    }
+
+    pub(super) fn is_defined(&self, name: &str) -> bool {
+        self.first.contains_key(name)
     }
 
     pub(super) fn names(&self) -> impl Iterator<Item = &str> {

@@ -24,7 +24,7 @@ pub(super) struct Entry {
 
 #[derive(Clone, Debug)]
 pub(super) enum EntryKind {
-    Primitive(Primitive),
+    Primitive(Arc<Primitive>),
     Alias(Alias),
     /// A command, without its `!`.
     Command(String),
@@ -40,6 +40,13 @@ pub(super) struct Primitive {
     pub(super) reals: Vec<f64>,
 }
 
+impl Primitive {
+    /// Numbers that take as much memory as its arguments.
+    pub(super) fn weight(&self) -> usize {
+        self.reals.len() + self.strings.iter().map(|it| 2 + it.len() / 8).sum::<usize>()
+    }
+}
+
 /// Another name for a modifier.
 #[derive(Clone, Debug)]
 pub(super) struct Alias {
@@ -50,17 +57,18 @@ pub(super) struct Alias {
 
 /// Reads the entries of a file.
 pub(super) fn parse(file: &str, text: &str) -> Result<Vec<Entry>, LoadError> {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let mut reader = Reader { file, words: Words::new(text) };
     let mut entries = Vec::new();
     while let Some(first) = reader.words.skip_blanks() {
         let place = reader.words.place();
         let kind = match first {
             '#' => {
-                reader.words.rest_of_line();
+                reader.words.pass_comment();
                 continue;
             }
             '!' => {
-                let line = reader.words.rest_of_line();
+                let line = reader.words.rest_of_command();
                 EntryKind::Command(line[1..].replace("\\\r\n", " ").replace("\\\n", " "))
             }
             _ => reader.primitive()?,
@@ -112,14 +120,20 @@ impl<'t> Reader<'t> {
         for _ in 0..self.count("the number of string arguments", &kind)? {
             strings.push(self.name("a string argument")?);
         }
-        for _ in 0..self.count("the number of integer arguments, 0", &kind)? {
-            self.number("an integer argument")?;
+        let integers = self.words.place();
+        let expected = "the number of integer arguments, 0";
+        if self.count(expected, &kind)? != 0 {
+            let message = format!(
+                "a primitive of the type {} with integer arguments, which none has; expected 0",
+                shown(&kind)
+            );
+            return Err(self.error(integers, message));
         }
         let mut reals = Vec::new();
         for _ in 0..self.count("the number of real arguments", &kind)? {
             reals.push(self.number("a real argument")?);
         }
-        Ok(EntryKind::Primitive(Primitive { modifier, kind, name, strings, reals }))
+        Ok(EntryKind::Primitive(Arc::new(Primitive { modifier, kind, name, strings, reals })))
     }
 
     fn next_number(&mut self, expected: &str) -> Result<Word<'t>, LoadError> {

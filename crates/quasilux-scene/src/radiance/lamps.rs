@@ -1,17 +1,20 @@
 //! Luminaires: surfaces whose light has a distribution, as intensities of their own.
 //!
-//! Surfaces of one material that touch each other shine together, such as the faces of a box.
+//! Surfaces of one material shine together where their correction is that of a body or a sheet:
+//! sides of a box, a cylinder with its ends, or two faces back to back.
 
 use super::definitions::Definition;
 use super::look::luminance_cd_m2;
-use super::pattern::{Arguments, Distribution};
+use super::pattern::{Arguments, Distribution, Joining};
 use super::shapes::Shape;
-use super::web::{Cone, Emitter};
+use super::web::{Budget, Cone, Emitter};
 use glam::DVec3;
 use quasilux_photometry::{
     IesStandard, Keyword, LuminaireFacts, LuminousOpening, PhotometricType, Photometry,
     SphericalTable, Standard, Tilt, write_ies,
 };
+use std::collections::HashSet;
+use std::sync::Arc;
 
 /// A luminaire at its place.
 #[derive(Clone, Debug)]
@@ -26,7 +29,7 @@ pub(crate) struct Lamp {
     /// Whether its opening is more than a point.
     pub(crate) is_area: bool,
     /// A photometric file (LM-63).
-    pub(crate) ies: String,
+    pub(crate) ies: Arc<str>,
 }
 
 /// Shapes that are apart by less than this part of their size touch.
@@ -35,8 +38,12 @@ const TOUCH: f64 = 0.05;
 const TOUCH_M: f64 = 0.002;
 /// Extents below this are none.
 const THIN_M: f64 = 0.0015;
-/// Most shapes of one material that are grouped.
-const MAX_GROUPED: usize = 2000;
+/// Most sides of a body.
+const MAX_SIDES: usize = 6;
+/// Faces turn toward one side where the cosine between their normals is above this.
+const SAME_SIDE: f64 = 0.999;
+/// Most characters of all photometric files of a scene.
+const MAX_TEXTS: usize = 1 << 29;
 
 /// Corners of a box along the axes.
 #[derive(Clone, Copy, Debug)]
@@ -82,33 +89,110 @@ impl Bounds {
         self.max - self.min
     }
 
-    fn touches(&self, other: &Self) -> bool {
+    /// Distances that do not part them.
+    fn gap(&self, other: &Self) -> DVec3 {
         let size = self.size().length().max(other.size().length());
-        let gap = DVec3::splat((TOUCH * size).max(TOUCH_M));
+        DVec3::splat((TOUCH * size).max(TOUCH_M))
+    }
+
+    fn is_near(&self, other: &Self) -> bool {
+        let gap = self.gap(other);
+        (self.min - other.min).abs().cmple(gap).all()
+            && (self.max - other.max).abs().cmple(gap).all()
+    }
+
+    fn touches(&self, other: &Self) -> bool {
+        let gap = self.gap(other);
         (self.min - gap).cmple(other.max).all() && (other.min - gap).cmple(self.max).all()
     }
 }
 
-/// Groups of shapes that touch each other, as indices.
-pub(super) fn groups(shapes: &[&Shape]) -> Vec<Vec<usize>> {
-    if shapes.len() > MAX_GROUPED {
-        return (0..shapes.len()).map(|index| vec![index]).collect();
+/// The direction that a flat shape faces.
+fn facing(shape: &Shape) -> Option<DVec3> {
+    match shape {
+        Shape::Polygon(corners) => {
+            let across = |pair: &[DVec3]| (pair[0] - corners[0]).cross(pair[1] - corners[0]);
+            corners.windows(2).map(across).sum::<DVec3>().try_normalize()
+        }
+        Shape::Ring { normal, .. } => Some(*normal),
+        _ => None,
     }
+}
+
+/// Shapes that follow each other and shine together, as indices.
+pub(super) fn groups(shapes: &[&Shape], joining: Joining) -> Vec<Vec<usize>> {
     let axes = [DVec3::X, DVec3::Y, DVec3::Z];
-    let bounds: Vec<Bounds> = shapes.iter().map(|shape| Bounds::from_shape(shape, axes)).collect();
-    let mut group_of: Vec<usize> = (0..shapes.len()).collect();
-    for a in 0..shapes.len() {
-        for b in 0..a {
-            let [keep, lose] = [group_of[b], group_of[a]];
-            if keep != lose && bounds[a].touches(&bounds[b]) {
-                group_of.iter_mut().filter(|it| **it == lose).for_each(|it| *it = keep);
+    let mut groups: Vec<Vec<usize>> = Vec::new();
+    let mut around: Option<Bounds> = None;
+    for (index, shape) in shapes.iter().enumerate() {
+        let bounds = Bounds::from_shape(shape, axes);
+        let joined = groups.last_mut().zip(around).filter(|(group, around)| {
+            let others = || group.iter().map(|&other| shapes[other]);
+            match joining {
+                Joining::Apart => false,
+                Joining::Sheet => {
+                    group.len() == 1
+                        && around.is_near(&bounds)
+                        && others().all(|other| are_back_to_back(other, shape))
+                }
+                Joining::Body => {
+                    group.len() < MAX_SIDES
+                        && around.touches(&bounds)
+                        && others().all(|other| are_two_sides(other, shape))
+                }
+            }
+        });
+        match joined {
+            Some((group, before)) => {
+                group.push(index);
+                around = Some(before.with(bounds));
+            }
+            None => {
+                groups.push(vec![index]);
+                around = Some(bounds);
             }
         }
     }
-    let mut groups: Vec<Vec<usize>> = vec![Vec::new(); shapes.len()];
-    group_of.iter().enumerate().for_each(|(shape, &group)| groups[group].push(shape));
-    groups.retain(|group| !group.is_empty());
     groups
+}
+
+fn are_back_to_back(a: &Shape, b: &Shape) -> bool {
+    facing(a).zip(facing(b)).is_some_and(|(a, b)| a.dot(b) < -SAME_SIDE)
+}
+
+/// Whether both may be sides of one body.
+fn are_two_sides(a: &Shape, b: &Shape) -> bool {
+    match (facing(a), facing(b)) {
+        (Some(a), Some(b)) => a.dot(b) < SAME_SIDE,
+        (None, None) => false,
+        _ => true,
+    }
+}
+
+/// Photometric files so far, and what they may take.
+#[derive(Debug, Default)]
+pub(super) struct Tables {
+    pub(super) budget: Budget,
+    texts: HashSet<Arc<str>>,
+    characters: usize,
+}
+
+impl Tables {
+    /// A text that equal ones share.
+    fn share(&mut self, text: String) -> Result<Arc<str>, String> {
+        if let Some(known) = self.texts.get(text.as_str()) {
+            return Ok(Arc::clone(known));
+        }
+        self.characters += text.len();
+        if self.characters > MAX_TEXTS {
+            self.budget.is_spent = true;
+            return Err("up to here the scene has too many tables of intensities; expected fewer"
+                .to_owned());
+        }
+        let text: Arc<str> = text.into();
+        self.texts.insert(Arc::clone(&text));
+        Ok(text)
+    }
 }
 
 /// A material with a distribution.
@@ -143,12 +227,18 @@ impl Source<'_> {
     }
 
     /// The luminaire that these surfaces are; `None` where they give no light.
-    pub(super) fn lamp(&self, name: &str, shapes: &[&Shape]) -> Result<Option<Lamp>, String> {
+    pub(super) fn lamp(
+        &self,
+        name: &str,
+        shapes: &[&Shape],
+        tables: &mut Tables,
+    ) -> Result<Option<Lamp>, String> {
         let luminance = self.tilt_factor * luminance_cd_m2(self.radiance()?);
         let emitter = Emitter::new(shapes, luminance, self.distribution.clone(), self.cone()?);
         let emitter = emitter.ok_or_else(|| "a part of it shines inward".to_owned())?;
         let turn = emitter.world_from_luminaire;
-        let table = SphericalTable::new(emitter.grid()?).map_err(|error| error.to_string())?;
+        let table = SphericalTable::new(emitter.grid(&mut tables.budget)?);
+        let table = table.map_err(|error| error.to_string())?;
         let axes = [turn.x_axis, turn.y_axis, turn.z_axis];
         let all = shapes.iter().map(|shape| Bounds::from_shape(shape, axes));
         let Some(bounds) = all.reduce(Bounds::with) else { return Ok(None) };
@@ -164,7 +254,7 @@ impl Source<'_> {
             aim: -turn.z_axis,
             c0: turn.x_axis,
             is_area,
-            ies: write_ies(&photometry, IesStandard::Lm63Of2002).text,
+            ies: tables.share(write_ies(&photometry, IesStandard::Lm63Of2002).text)?,
         }))
     }
 }
@@ -229,4 +319,57 @@ fn facts(name: &str, opening: LuminousOpening) -> LuminaireFacts {
 /// Arguments of a pattern that is a distribution of light.
 pub(super) fn distribution_of(definition: &Definition) -> Option<Arguments<'_>> {
     Arguments::from_definition(definition).filter(Arguments::is_of_source)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn rectangle(min: [f64; 2], max: [f64; 2], z: f64) -> Shape {
+        let corner = |x, y| DVec3::new(x, y, z);
+        Shape::Polygon(vec![
+            corner(min[0], min[1]),
+            corner(min[0], max[1]),
+            corner(max[0], max[1]),
+            corner(max[0], min[1]),
+        ])
+    }
+
+    /// Strips around a cove touch at their ends, and each shines where it is.
+    #[test]
+    fn strips_shine_where_they_are() {
+        let strips = [
+            rectangle([0.0, 0.0], [8.0, 0.1], 3.0),
+            rectangle([7.9, 0.0], [8.0, 6.0], 3.0),
+            rectangle([0.0, 5.9], [8.0, 6.0], 3.0),
+            rectangle([0.0, 0.0], [0.1, 6.0], 3.0),
+        ];
+        let strips: Vec<&Shape> = strips.iter().collect();
+        for joining in [Joining::Sheet, Joining::Body, Joining::Apart] {
+            assert_eq!(groups(&strips, joining).len(), 4);
+        }
+    }
+
+    #[test]
+    fn faces_back_to_back_are_a_sheet() {
+        let down = rectangle([0.0, 0.0], [0.4, 0.2], 2.0);
+        let Shape::Polygon(mut corners) = rectangle([0.0, 0.0], [0.4, 0.2], 2.001) else {
+            panic!("a polygon")
+        };
+        corners.reverse();
+        let up = Shape::Polygon(corners);
+        assert_eq!(groups(&[&down, &up, &down], Joining::Sheet), [vec![0, 1], vec![2]]);
+        assert_eq!(groups(&[&down, &up], Joining::Apart).len(), 2);
+    }
+
+    #[test]
+    fn tables_of_a_scene_are_bounded() {
+        let mut tables = Tables::default();
+        let first = tables.share("a".to_owned()).unwrap();
+        assert!(Arc::ptr_eq(&first, &tables.share("a".to_owned()).unwrap()));
+        tables.characters = MAX_TEXTS;
+        assert!(tables.share("b".to_owned()).is_err() && tables.budget.is_spent);
+        let mut budget = Budget::default();
+        assert!(budget.spend(1000).is_ok() && budget.spend(usize::MAX).is_err());
+    }
 }

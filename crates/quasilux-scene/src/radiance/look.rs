@@ -10,6 +10,7 @@ use crate::bsdf::{AngularTable, Conductor, Diffuse, Mirror, Plastic, Translucent
 use crate::bsdf::{Dielectric, Pane};
 use crate::{Bsdf, Rgb};
 use glam::DVec3;
+use quasilux_text::Position;
 use std::sync::Arc;
 
 /// Lumens a watt of Radiance's white.
@@ -33,7 +34,20 @@ pub(crate) enum Look {
     /// Nothing at all.
     Open,
     /// Something that quasilux has nothing for, in the words of a refusal.
-    Unknown(String),
+    Unknown(Refusal),
+}
+
+/// Why a material is refused, and where it is defined.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Refusal {
+    pub(crate) message: String,
+    pub(crate) place: Option<(Arc<str>, Position)>,
+}
+
+impl From<String> for Refusal {
+    fn from(message: String) -> Self {
+        Self { message, place: None }
+    }
 }
 
 impl From<Bsdf> for Look {
@@ -104,6 +118,7 @@ impl Looks<'_> {
         if transmitted == 1.0 && straight == 1.0 && colour.is_grey() {
             let passed = rest.luminance();
             if passed == 1.0 {
+                self.note("all light goes straight through it, and it is left out");
                 return Look::Open;
             }
             let [through, back] = [passed, specularity].map(AngularTable::constant);

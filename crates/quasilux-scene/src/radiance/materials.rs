@@ -105,7 +105,7 @@ pub(super) fn look(definition: &Definition, reading: &mut Reading<'_, '_>) -> Lo
         "BSDF" | "aBSDF" => of.sheet(definition, reading),
         _ => of.look(&mut Looks { place: &place, findings: reading.findings }),
     };
-    found.unwrap_or_else(Look::Unknown)
+    found.unwrap_or_else(|message| Look::Unknown(message.into()))
 }
 
 /// A material, and how messages call it.
@@ -259,7 +259,10 @@ impl Of<'_> {
             return Err(self.refusal(&what));
         }
         if &*self.primitive.kind == "illum" {
-            looks.note("an illum is a black surface that shines here");
+            return Err(self.refusal(
+                "shines and lets all light through, for which there is nothing here; name its \
+                 alternate material, or make it a light",
+            ));
         }
         Ok(looks.light(radiance, max_radius))
     }
@@ -296,10 +299,9 @@ impl Of<'_> {
         let up = up.filter(|up| up.length() > 0.0 && up.length() < 1e9).ok_or_else(|| {
             self.refusal("has no numbers for where up is; expected a direction of some length")
         })?;
-        let bytes = reading.includes.data(&definition.place.file, file, FileKind::Bsdf);
-        let bytes = bytes.map_err(|message| self.refusal(&format!(": {message}")))?;
-        let xml = String::from_utf8_lossy(&bytes).into_owned();
-        let name = format!("{} {file}", definition.name);
-        Ok(Look::Sheet { name: name.into(), xml: xml.into(), up })
+        let table = reading.includes.data(&definition.place.file, file, FileKind::Bsdf);
+        let table = table.map_err(|message| self.refusal(&format!(": {message}")))?;
+        // One file is one table, wherever it is used.
+        Ok(Look::Sheet { name: table.path, xml: table.text, up })
     }
 }

@@ -17,8 +17,8 @@ use std::rc::Rc;
 #[derive(Clone, Debug)]
 pub(super) struct Distribution {
     correction: Scaling,
-    pub(super) coordinates: Vec<Coordinate>,
-    pub(super) data: Rc<Data>,
+    coordinates: Vec<Coordinate>,
+    data: Rc<Data>,
     pub(super) frame: Frame,
 }
 
@@ -29,15 +29,33 @@ enum Scaling {
     Plain(f64),
     /// Over the cosine at the surface.
     Flat(f64),
-    /// Over the area that a box shows, by its sides in m.
+    /// Over the area that a box shows, by those of its sides across x, y and z in m2.
     Box(f64, DVec3),
-    /// Over the area that a cylinder along z shows, by diameter and height in m.
+    /// Over the area that a cylinder along z shows, by those from the side and from an end in m2.
     Cylinder(f64, [f64; 2]),
+}
+
+/// Surfaces of one material that shine as one luminaire.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Joining {
+    /// The sides of a body.
+    Body,
+    /// Both sides of a sheet.
+    Sheet,
+    /// None.
+    Apart,
+}
+
+/// Coordinate of data: an angle and what is added to it, in degrees.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Coordinate {
+    angle: Angle,
+    shift_deg: f64,
 }
 
 /// An angle of a direction, in degrees.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Coordinate {
+pub(super) enum Angle {
     Theta,
     /// All around.
     Phi,
@@ -51,10 +69,26 @@ pub(super) enum Coordinate {
 }
 
 impl Coordinate {
+    /// By a name, or by one with a number behind a sign: `src_phi2+90`.
+    fn named(name: &str) -> Option<Self> {
+        let sign = name.rfind(['+', '-']).filter(|&at| at > 0).unwrap_or(name.len());
+        let (name, shift) = name.split_at(sign);
+        let shift_deg = if shift.is_empty() { 0.0 } else { shift.parse().ok()? };
+        let angle = Angle::named(name).filter(|_| f64::abs(shift_deg) <= 360.0)?;
+        Some(Self { angle, shift_deg })
+    }
+
+    /// Of a direction in which light leaves.
+    fn angle_deg(self, direction: DVec3) -> f64 {
+        self.angle.angle_deg(direction) + self.shift_deg
+    }
+}
+
+impl Angle {
     fn named(name: &str) -> Option<Self> {
         Some(match name {
-            "src_theta" => Self::Theta,
-            "src_phi" => Self::Phi,
+            "src_theta" | "q_gamma" => Self::Theta,
+            "src_phi" | "q_c" => Self::Phi,
             "src_phi2" => Self::Phi2,
             "src_phi4" => Self::Phi4,
             "srcB_vert" => Self::Vertical(false),
@@ -110,7 +144,10 @@ impl<'d> Arguments<'d> {
         let options = rest.iter().position(|word| word.starts_with('-')).unwrap_or(rest.len());
         let (coordinates, options) = rest.split_at(options);
         let words: Vec<String> = options.iter().map(|word| word.to_string()).collect();
-        let Parsed { transforms, .. } = Transforms::parse(&words).ok()?;
+        let Parsed { transforms, used } = Transforms::parse(&words).ok()?;
+        if used != words.len() {
+            return None;
+        }
         let own = transforms.copy(0).filter(|_| transforms.copies() == 1)?.frame;
         let frame = own.then(&definition.frame);
         let functions = functions.rsplit(['/', '\\']).next().unwrap_or(functions);
@@ -120,7 +157,7 @@ impl<'d> Arguments<'d> {
 
     /// Whether it is a distribution of light.
     pub(super) fn is_of_source(&self) -> bool {
-        self.functions == "source.cal"
+        matches!(self.functions, "source.cal" | "quasilux.cal")
     }
 
     /// Position of the data of a lamp's tilt that this pattern asks for; `None` for other patterns.
@@ -149,13 +186,27 @@ impl<'d> Arguments<'d> {
             let side = reals.get(at).copied().filter(|side| *side >= 0.0 && *side <= 1e6);
             side.ok_or_else(|| "its real arguments are no lengths".to_owned())
         };
+        let over = |area: f64| {
+            let is_some = area > 0.0;
+            is_some.then(|| 1.0 / area).ok_or_else(|| "its area is 0".to_owned())
+        };
         let correction = match self.function {
+            // Those of quasilux's own exports: over areas.
+            "q_point" => Scaling::Plain(over(side(0)?)?),
+            "q_flat" => Scaling::Flat(over(side(0)?)?),
+            "q_box" => Scaling::Box(1.0, DVec3::new(side(0)?, side(1)?, side(2)?)),
+            "q_tube" => Scaling::Cylinder(1.0, [side(0)?, side(1)?]),
             "corr" | "noop" => Scaling::Plain(first(Some(1.0))?),
             "flatcorr" => Scaling::Flat(first(Some(1.0))?),
             "boxcorr" | "lboxcorr" => {
-                Scaling::Box(first(None)?, DVec3::new(side(1)?, side(2)?, side(3)?))
+                let [x, y, z] = [side(1)?, side(2)?, side(3)?];
+                Scaling::Box(first(None)?, DVec3::new(y * z, x * z, x * y))
             }
-            "cylcorr" => Scaling::Cylinder(first(None)?, [side(1)?, side(2)?]),
+            "cylcorr" => {
+                let [diameter, height] = [side(1)?, side(2)?];
+                let areas = [diameter * height, 0.25 * PI * diameter * diameter];
+                Scaling::Cylinder(first(None)?, areas)
+            }
             other => {
                 return Err(format!(
                     "the function {} is not known; expected flatcorr, boxcorr, cylcorr or corr",
@@ -168,7 +219,7 @@ impl<'d> Arguments<'d> {
         let coordinates = coordinates.filter(|all| all.len() == data.axes.len());
         let coordinates = coordinates.ok_or_else(|| {
             "its coordinates are not known, or not as many as those of the data; expected \
-             src_theta, behind one of src_phi, src_phi2 and src_phi4"
+             src_theta, behind one of src_phi, src_phi2 and src_phi4, with numbers added to them"
                 .to_owned()
         })?;
         if !data.is_of_light() {
@@ -185,6 +236,20 @@ impl Distribution {
         matches!(self.correction, Scaling::Flat(_))
     }
 
+    /// What it is a distribution of.
+    pub(super) fn joining(&self) -> Joining {
+        match self.correction {
+            Scaling::Plain(_) => Joining::Apart,
+            Scaling::Flat(_) => Joining::Sheet,
+            Scaling::Box(..) | Scaling::Cylinder(..) => Joining::Body,
+        }
+    }
+
+    /// Whether an angle is one of its coordinates.
+    pub(super) fn has(&self, angle: Angle) -> bool {
+        self.coordinates.iter().any(|it| it.angle == angle)
+    }
+
     /// Factor on the radiance of the material toward a direction of the distribution's own frame;
     /// for flat surfaces times the cosine.
     pub(super) fn factor(&self, direction: DVec3) -> f64 {
@@ -193,21 +258,21 @@ impl Distribution {
         let DVec3 { x, y, z } = direction.abs();
         match self.correction {
             Scaling::Plain(factor) | Scaling::Flat(factor) => factor * value,
-            Scaling::Box(factor, sides) => {
-                let shown = x * sides.y * sides.z + y * sides.x * sides.z + z * sides.x * sides.y;
+            Scaling::Box(factor, areas) => {
+                let shown = areas.dot(DVec3::new(x, y, z));
                 if shown > 0.0 { factor * value / shown } else { 0.0 }
             }
-            Scaling::Cylinder(factor, [diameter, height]) => {
-                let side = diameter * height * (1.0 - z * z).max(0.0).sqrt();
-                let shown = side + 0.25 * PI * diameter * diameter * z;
+            Scaling::Cylinder(factor, [side, end]) => {
+                let shown = side * (1.0 - z * z).max(0.0).sqrt() + end * z;
                 if shown > 0.0 { factor * value / shown } else { 0.0 }
             }
         }
     }
 
-    /// Positions of the data along an angle, where it is one of its coordinates.
-    pub(super) fn axis(&self, of: impl Fn(Coordinate) -> bool) -> Option<&[f64]> {
-        let at = self.coordinates.iter().position(|&coordinate| of(coordinate))?;
-        Some(&self.data.axes[at])
+    /// Angles of the data, where it is by one of these.
+    pub(super) fn axis(&self, of: impl Fn(Angle) -> bool) -> Option<Vec<f64>> {
+        let at = self.coordinates.iter().position(|it| of(it.angle))?;
+        let shift_deg = self.coordinates[at].shift_deg;
+        Some(self.data.axes[at].iter().map(|position| position - shift_deg).collect())
     }
 }

@@ -6,11 +6,11 @@ use super::definitions::{Definition, Definitions, FilePlace, Link};
 use super::document::shown;
 use super::findings::Findings;
 use super::includes::Includes;
-use super::lamps::{Lamp, Source, distribution_of, groups};
-use super::look::Look;
+use super::lamps::{Lamp, Source, Tables, distribution_of, groups};
+use super::look::{Look, Refusal};
 use super::materials::{Reading, is_material, is_pattern, look, shines};
 use super::outside::{Far, Outside};
-use super::pattern::Arguments;
+use super::pattern::{Arguments, Distribution, Joining};
 use super::shapes::Shape;
 use crate::{FileKind, Files, LoadError};
 use quasilux_text::Position;
@@ -63,8 +63,7 @@ impl Scene {
         described: &HashSet<&str>,
         findings: &mut Findings,
     ) -> Result<Self, LoadError> {
-        let first = names.first().copied().unwrap_or_default();
-        let mut collector = Collector::new(Includes::new(files, first));
+        let mut collector = Collector::new(Includes::new(files, names));
         for name in names {
             collector.file(name, findings)?;
         }
@@ -75,9 +74,11 @@ impl Scene {
             described,
             scene: Self::default(),
             chains: HashMap::new(),
+            sorted: HashMap::new(),
             numbers: HashMap::new(),
-            names: HashMap::new(),
+            names: HashSet::new(),
             data: HashMap::new(),
+            tables: Tables::default(),
         };
         let mut shining: Vec<Shining> = Vec::new();
         let mut group_of: HashMap<usize, usize> = HashMap::new();
@@ -97,10 +98,25 @@ impl Scene {
     }
 }
 
+/// Luminaires of a material.
+#[derive(Default)]
+struct Made {
+    lamps: Vec<Lamp>,
+    /// Whether some of them give no light.
+    is_dark: bool,
+}
+
 /// Surfaces of one material that are luminaires.
 struct Shining {
     definition: usize,
     surfaces: Vec<RawSurface>,
+}
+
+/// What becomes of a surface, by a number of materials or of definitions.
+#[derive(Clone, Copy, Debug)]
+enum Sorted {
+    Kept { material: usize },
+    Shines { definition: usize },
 }
 
 /// Sorts surfaces by what becomes of them.
@@ -110,10 +126,14 @@ struct Sorter<'f, 'n> {
     described: &'n HashSet<&'n str>,
     scene: Scene,
     chains: HashMap<usize, Chain>,
+    /// What becomes of surfaces, by their first modifiers.
+    sorted: HashMap<usize, Sorted>,
     /// Numbers of materials, by all that they depend on.
     numbers: HashMap<String, usize>,
-    /// How many materials have a name.
-    names: HashMap<String, usize>,
+    /// Names of materials.
+    names: HashSet<String>,
+    tables: Tables,
+    /// By their files.
     data: HashMap<String, Result<Rc<Data>, String>>,
 }
 
@@ -125,10 +145,27 @@ impl Sorter<'_, '_> {
     /// Takes a surface; the number of its material where it is a part of a luminaire.
     fn surface(&mut self, surface: &RawSurface) -> Result<Option<usize>, LoadError> {
         if let Some(number) = self.described_elsewhere(&surface.modifier) {
-            if !matches!(surface.shape, Shape::Source { .. }) {
+            if matches!(surface.shape, Shape::Source { .. }) {
+                let place = format!("source \"{}\"", shown(&surface.name));
+                let note = "a source whose material the scene does not define is left out";
+                self.findings.note(&place, note);
+            } else {
                 self.keep(surface, number);
             }
             return Ok(None);
+        }
+        let is_far = matches!(surface.shape, Shape::Source { .. });
+        let first = match self.definitions().settled(&surface.modifier) {
+            Link::To(first) if !is_far => Some(first),
+            _ => None,
+        };
+        match first.and_then(|first| self.sorted.get(&first)) {
+            Some(&Sorted::Kept { material }) => {
+                self.keep(surface, material);
+                return Ok(None);
+            }
+            Some(&Sorted::Shines { definition }) => return Ok(Some(definition)),
+            None => {}
         }
         let chain = self.chain_of(&surface.modifier, &surface.place)?;
         let Some(material) = chain.material else {
@@ -148,11 +185,14 @@ impl Sorter<'_, '_> {
             self.scene.outside.add(&far, self.findings);
             return Ok(None);
         }
+        let first = first.expect("a material is a modifier");
         if self.is_lamp(&chain) {
+            self.sorted.insert(first, Sorted::Shines { definition: material });
             return Ok(Some(material));
         }
-        let number = self.material(&chain, 0)?;
-        self.keep(surface, number);
+        let material = self.material(&chain, 0)?;
+        self.sorted.insert(first, Sorted::Kept { material });
+        self.keep(surface, material);
         Ok(None)
     }
 
@@ -165,12 +205,18 @@ impl Sorter<'_, '_> {
         if !self.described.contains(&*name) {
             return None;
         }
+        Some(self.described(&name, None))
+    }
+
+    /// The material of a name that the project describes.
+    fn described(&mut self, name: &str, light: Option<Look>) -> usize {
         let key = format!("described {name}");
         match self.numbers.get(&key) {
-            Some(&known) => Some(known),
+            Some(&known) => known,
             None => {
-                let look = Look::Unknown(format!("no modifier is called {name:?}"));
-                Some(self.push_material(key, name.to_string(), look))
+                let unknown = || Look::Unknown(format!("no modifier is called {name:?}").into());
+                self.names.insert(name.to_owned());
+                self.push_material(key, name.to_owned(), light.unwrap_or_else(unknown))
             }
         }
     }
@@ -241,7 +287,11 @@ impl Sorter<'_, '_> {
     /// Whether surfaces of these modifiers are luminaires.
     fn is_lamp(&self, chain: &Chain) -> bool {
         let Some(material) = chain.material else { return false };
-        let primitive = &self.definitions().get(material).primitive;
+        let definition = self.definitions().get(material);
+        if self.described.contains(&*definition.name) || definition.alternate.is_some() {
+            return false;
+        }
+        let primitive = &definition.primitive;
         let has_distribution = || {
             chain.patterns.iter().any(|&it| distribution_of(self.definitions().get(it)).is_some())
         };
@@ -259,12 +309,11 @@ impl Sorter<'_, '_> {
     fn material(&mut self, chain: &Chain, depth: usize) -> Result<usize, LoadError> {
         let number = chain.material.expect("a chain with a material");
         let definition = self.definitions().get(number).clone();
-        if let Some(alternate) = alternate(&definition).filter(|_| depth < MAX_CHAIN) {
+        if let Some(alternate) = definition.alternate.as_ref().filter(|_| depth < MAX_CHAIN) {
             let place = format!("illum \"{}\"", shown(&definition.name));
             let note = "an illum is its alternate material: light comes through that by itself";
             self.findings.note(&place, note);
-            let link = self.definitions().link(alternate);
-            let inner = self.chain_of(&link, &definition.place)?;
+            let inner = self.chain_of(alternate, &definition.place)?;
             if inner.material.is_some() {
                 return self.material(&inner, depth + 1);
             }
@@ -273,14 +322,37 @@ impl Sorter<'_, '_> {
         if let Some(&known) = self.numbers.get(&key) {
             return Ok(known);
         }
-        let found = self.look(&definition, chain);
-        let count = self.names.entry(definition.name.to_string()).or_insert(0);
-        *count += 1;
-        let mut name = definition.name.to_string();
-        if *count > 1 {
-            write!(name, " {count}").expect("strings grow");
+        let name = self.free_name(&definition.name);
+        let is_described = self.described.contains(&*definition.name);
+        if is_described && (name == *definition.name || !self.described.contains(name.as_str())) {
+            let light = self.plain_light(&definition, chain);
+            return Ok(self.described(&definition.name, light));
         }
+        let mut found = self.look(&definition, chain);
+        if let Look::Unknown(refusal) = &mut found {
+            let FilePlace { file, at } = &definition.place;
+            refusal.place = Some((Arc::clone(file), *at));
+        }
+        self.names.insert(name.clone());
         Ok(self.push_material(key, name, found))
+    }
+
+    /// The light of a material that the project describes, where it shines.
+    fn plain_light(&mut self, definition: &Definition, chain: &Chain) -> Option<Look> {
+        let is_plain = shines(&definition.primitive.kind) && chain.patterns.is_empty();
+        let look = is_plain.then(|| self.look(definition, chain));
+        look.filter(|look| matches!(look, Look::Light(_)))
+    }
+
+    /// A name that no other material has: that of a definition, or one with a number behind it.
+    fn free_name(&self, name: &str) -> String {
+        if !self.names.contains(name) {
+            return name.to_owned();
+        }
+        let numbered = (2_u64..).map(|number| format!("{name} {number}"));
+        let mut free =
+            numbered.filter(|it| !self.names.contains(it) && !self.definitions().is_defined(it));
+        free.next().expect("there are more numbers than names")
     }
 
     fn push_material(&mut self, key: String, name: String, look: Look) -> usize {
@@ -293,13 +365,16 @@ impl Sorter<'_, '_> {
     fn look(&mut self, definition: &Definition, chain: &Chain) -> Look {
         let kind = &*definition.primitive.kind;
         let place = format!("{kind} \"{}\"", shown(&definition.name));
-        if shines(kind) && !chain.patterns.is_empty() {
+        let never_lights =
+            kind == "glow" && definition.primitive.reals.get(3).is_some_and(|reach| *reach < 0.0);
+        if shines(kind) && !never_lights && !chain.patterns.is_empty() {
             let pattern = self.definitions().get(chain.patterns[0]);
             let (kind, pattern) = (&pattern.primitive.kind, shown(&pattern.name));
-            return Look::Unknown(format!(
+            let refusal = format!(
                 "{place} shines by the pattern {kind} \"{pattern}\", of which there is nothing \
                  here; expected none, or brightdata with source.cal"
-            ));
+            );
+            return Look::Unknown(refusal.into());
         }
         if !chain.patterns.is_empty() {
             self.findings.note(&place, "the pattern that it is modified by is left out");
@@ -316,37 +391,56 @@ impl Sorter<'_, '_> {
         let definition = self.definitions().get(material).clone();
         let place = format!("{} \"{}\"", definition.primitive.kind, shown(&definition.name));
         let chain = self.chain_of(&Link::To(material), &definition.place)?;
-        let shapes: Vec<&Shape> = surfaces.iter().map(|surface| &surface.shape).collect();
-        let groups = groups(&shapes);
-        let mut made = Vec::new();
-        let outcome = self.source(&definition, &chain).and_then(|source| {
-            for group in &groups {
-                let shapes: Vec<&Shape> = group.iter().map(|&index| shapes[index]).collect();
-                made.extend(source.lamp(&definition.name, &shapes)?);
+        let made = self
+            .source(&definition, &chain)
+            .and_then(|source| self.lamps_of(&source, &definition, &surfaces));
+        let FilePlace { file, at } = &definition.place;
+        let mut made = match made {
+            Ok(made) => made,
+            Err(why) if self.tables.budget.is_spent => {
+                return Err(LoadError::new(file, Some(*at), why));
             }
-            Ok(())
-        });
-        if let Err(why) = outcome {
-            let key = format!("dark {material}");
-            let refusal = format!(
-                "the light of {place} is not known: {why}; expected what \
-                                   ies2rad writes"
-            );
-            let name = definition.name.to_string();
-            let number = self.push_material(key, name, Look::Unknown(refusal));
-            surfaces.iter().for_each(|surface| self.keep(surface, number));
-            return Ok(());
-        }
-        if made.len() < groups.len() {
+            Err(why) => {
+                let message = format!(
+                    "the light of {place} is not known: {why}; expected what ies2rad writes"
+                );
+                let place = Some((Arc::clone(file), *at));
+                let name = self.free_name(&definition.name);
+                self.names.insert(name.clone());
+                let look = Look::Unknown(Refusal { message, place });
+                let number = self.push_material(format!("dark {material}"), name, look);
+                surfaces.iter().for_each(|surface| self.keep(surface, number));
+                return Ok(());
+            }
+        };
+        if made.is_dark {
             self.findings.note(&place, "a luminaire that gives no light is left out");
         }
-        self.scene.lamps.append(&mut made);
-        if self.scene.lamps.len() > MAX_LAMPS {
-            let message = format!("more than {MAX_LAMPS} luminaires; expected fewer");
-            let FilePlace { file, at } = &definition.place;
-            return Err(LoadError::new(file, Some(*at), message));
-        }
+        self.scene.lamps.append(&mut made.lamps);
         Ok(())
+    }
+
+    fn lamps_of(
+        &mut self,
+        source: &Source<'_>,
+        definition: &Definition,
+        surfaces: &[RawSurface],
+    ) -> Result<Made, String> {
+        let shapes: Vec<&Shape> = surfaces.iter().map(|surface| &surface.shape).collect();
+        let joining = source.distribution.as_ref().map_or(Joining::Apart, Distribution::joining);
+        let mut made = Made::default();
+        for group in groups(&shapes, joining) {
+            if self.scene.lamps.len() + made.lamps.len() >= MAX_LAMPS {
+                self.tables.budget.is_spent = true;
+                return Err(format!("more than {MAX_LAMPS} luminaires; expected fewer"));
+            }
+            let shapes: Vec<&Shape> = group.iter().map(|&index| shapes[index]).collect();
+            match source.lamp(&definition.name, &shapes, &mut self.tables)? {
+                Some(lamp) => made.lamps.push(lamp),
+                None => made.is_dark = true,
+            }
+        }
+        Ok(made)
     }
 
     /// The distribution of a material, or why it is not known.
@@ -387,24 +481,15 @@ impl Sorter<'_, '_> {
     }
 
     fn data(&mut self, of: &str, name: &str) -> Result<Rc<Data>, String> {
-        let key = format!("{of}\n{name}");
-        if let Some(known) = self.data.get(&key) {
+        let file = self.collector.includes.data(of, name, FileKind::Radiance)?;
+        if let Some(known) = self.data.get(&*file.path) {
             return known.clone();
         }
-        let bytes = self.collector.includes.data(of, name, FileKind::Radiance);
-        let read = bytes.and_then(|bytes| {
-            let data = Data::parse(&String::from_utf8_lossy(&bytes));
-            data.map(Rc::new).map_err(|what| format!("\"{}\" is no data: {what}", shown(name)))
-        });
-        self.data.insert(key, read.clone());
+        let read = Data::parse(&file.text).map(Rc::new);
+        let read = read.map_err(|what| format!("\"{}\" is no data: {what}", shown(&file.path)));
+        self.data.insert(file.path.to_string(), read.clone());
         read
     }
-}
-
-/// The alternate material of an `illum` that has one.
-fn alternate(definition: &Definition) -> Option<&Arc<str>> {
-    let first = definition.primitive.strings.first();
-    first.filter(|name| &*definition.primitive.kind == "illum" && &***name != "void")
 }
 
 /// Text that is the same for materials that are.

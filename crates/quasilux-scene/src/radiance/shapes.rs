@@ -98,7 +98,16 @@ impl Shape {
             }
             "cone" | "cup" => {
                 needs(8)?;
-                let is_inward = (kind == "cup") != *is_inverted;
+                let signs =
+                    [reals[6], reals[7]].map(|it| if it == 0.0 { 0.0 } else { it.signum() });
+                let sign = signs[0] + signs[1];
+                if sign == 0.0 {
+                    return Err(about(
+                        primitive,
+                        "radii of two signs, or none; expected two of one",
+                    ));
+                }
+                let is_inward = ((kind == "cup") != (sign < 0.0)) != *is_inverted;
                 let (from_radius, to_radius) = (radius(6), radius(7));
                 Self::Cone { from: point(0), to: point(3), from_radius, to_radius, is_inward }
             }
@@ -148,4 +157,30 @@ fn expect(primitive: &Primitive, is_fine: bool, count: &str) -> Result<(), Strin
     }
     let found = primitive.reals.len();
     Err(about(primitive, &format!("{found} real arguments; expected {count}")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// As `getcone` of Radiance has signs of radii.
+    #[test]
+    fn negative_radii_turn_cones_inside_out() {
+        let cone = |kind: &str, radii: [f64; 2]| {
+            let reals = vec![0.0, 0.0, 0.0, 0.0, 0.0, 1.0, radii[0], radii[1]];
+            let kind = kind.into();
+            let primitive = Primitive { kind, reals, ..Primitive::default() };
+            let placement = Placement { frame: Frame::default(), is_inverted: false };
+            match Shape::from_primitive(&primitive, &placement) {
+                Ok(Shape::Cone { is_inward, .. }) => Some(is_inward),
+                _ => None,
+            }
+        };
+        assert_eq!(cone("cone", [1.0, 0.0]), Some(false));
+        assert_eq!(cone("cone", [-1.0, 0.0]), Some(true));
+        assert_eq!(cone("cone", [-1.0, -2.0]), Some(true));
+        assert_eq!(cone("cup", [0.0, -2.0]), Some(false));
+        assert_eq!(cone("cone", [1.0, -2.0]), None);
+        assert_eq!(cone("cup", [0.0, 0.0]), None);
+    }
 }

@@ -19,6 +19,8 @@ pub(crate) struct View {
 pub(crate) struct ViewLine {
     pub(crate) line: usize,
     pub(crate) view: Result<View, &'static str>,
+    /// What a camera has not of it.
+    pub(crate) note: Option<&'static str>,
 }
 
 /// Options of a view, as far as they are told.
@@ -31,6 +33,7 @@ struct Options {
     horizontal: Option<f64>,
     vertical: Option<f64>,
     is_moved: bool,
+    is_clipped: bool,
 }
 
 /// The views of a file.
@@ -47,12 +50,17 @@ pub(crate) fn views(file: &str, bytes: &[u8]) -> Result<Vec<ViewLine>, LoadError
             options.take(option, &mut words).ok_or_else(|| {
                 let place = Some(Position { line, column: 1 });
                 let option = super::document::shown(word);
-                let message = format!("{option} lacks its numbers; expected those of a view");
+                let message = format!(
+                    "{option} lacks its numbers, or is no option of a view; expected -vt, -vp, \
+                     -vd, -vu, -vh, -vv, -vs, -vl, -vo or -va"
+                );
                 LoadError::new(file, place, message)
             })?;
         }
         if is_view {
-            views.push(ViewLine { line, view: options.view() });
+            let note = "its fore and aft planes (-vo, -va) are left out";
+            let note = options.is_clipped.then_some(note);
+            views.push(ViewLine { line, view: options.view(), note });
         }
     }
     if views.is_empty() {
@@ -79,10 +87,8 @@ impl Options {
             "h" => self.horizontal = Some(number()?),
             "v" => self.vertical = Some(number()?),
             "s" | "l" => self.is_moved |= number()? != 0.0,
-            "o" | "a" => {
-                number()?;
-            }
-            _ => {}
+            "o" | "a" => self.is_clipped |= number()? != 0.0,
+            _ => return None,
         }
         Some(())
     }
@@ -123,6 +129,9 @@ mod tests {
         assert_eq!(direction, DVec3::new(0.0, 1.0, -0.5));
         assert_eq!((horizontal_deg, vertical_deg, read[0].line), (60.0, 40.0, 1));
         assert!(read[1].view.is_err() && read[2].view.is_err());
+        assert!(read[0].note.is_none());
+        assert!(views("a.vf", b"-vtv -vo 0.5").unwrap()[0].note.is_some());
+        assert!(views("a.vf", b"-vtv -vx 1").is_err());
         assert!(views("a.vf", b"-vp 1 2").is_err() && views("a.vf", b"x").is_err());
     }
 }

@@ -4,7 +4,7 @@
 //! corrections that `ies2rad` writes the product is linear between the data again, so that a table
 //! on their angles holds all of it; where it is not, the table is finer.
 
-use super::pattern::{Coordinate, Distribution};
+use super::pattern::{Angle, Distribution};
 use super::shapes::Shape;
 use super::tessellation::tessellate;
 use glam::{DMat3, DVec3};
@@ -17,6 +17,40 @@ const MAX_VALUES: usize = 2_000_000;
 const EDGE_DEG: f64 = 0.005;
 /// Largest share of the greatest intensity that lines between angles may be off.
 const MAX_ERROR: f64 = 2e-3;
+
+/// What the tables of a scene may take.
+#[derive(Debug)]
+pub(super) struct Budget {
+    values_left: usize,
+    pub(super) is_spent: bool,
+}
+
+/// Most intensities of all luminaires, times the surfaces of each.
+const MAX_ALL_VALUES: usize = 400_000_000;
+
+impl Default for Budget {
+    fn default() -> Self {
+        Self { values_left: MAX_ALL_VALUES, is_spent: false }
+    }
+}
+
+impl Budget {
+    pub(super) fn spend(&mut self, values: usize) -> Result<(), String> {
+        match self.values_left.checked_sub(values) {
+            Some(left) => {
+                self.values_left = left;
+                Ok(())
+            }
+            None => {
+                self.is_spent = true;
+                Err(format!(
+                    "up to here the luminaires of the scene have more than {MAX_ALL_VALUES} \
+                     intensities; expected fewer"
+                ))
+            }
+        }
+    }
+}
 
 /// Surfaces that shine together.
 pub(super) struct Emitter {
@@ -161,7 +195,7 @@ impl Emitter {
     }
 
     /// The table of intensities; `Err` where it is too large.
-    pub(super) fn grid(&self) -> Result<Grid, String> {
+    pub(super) fn grid(&self, budget: &mut Budget) -> Result<Grid, String> {
         let mut angles = self.angles();
         if !self.is_linear(&angles) {
             angles.theta.extend((0..=180).map(f64::from));
@@ -169,9 +203,11 @@ impl Emitter {
             sort(&mut angles.theta);
             sort(&mut angles.phi);
         }
-        if angles.theta.len().saturating_mul(angles.phi.len()) > MAX_VALUES {
+        let values = angles.theta.len().saturating_mul(angles.phi.len());
+        if values > MAX_VALUES {
             return Err(format!("its table would have more than {MAX_VALUES} intensities"));
         }
+        budget.spend(values.saturating_mul(self.parts.len()))?;
         Ok(self.table(&angles))
     }
 
@@ -180,9 +216,9 @@ impl Emitter {
         let mut phi = Vec::new();
         let data = self.distribution.as_ref();
         let is_mirrored = data.is_some_and(|it| it.frame.is_mirrored());
-        match data.and_then(|it| it.axis(|it| it == Coordinate::Theta)) {
+        match data.and_then(|it| it.axis(|it| it == Angle::Theta)) {
             Some(axis) => {
-                theta.extend(axis);
+                theta.extend(&axis);
                 // Beyond the data there is no light.
                 let last = axis[axis.len() - 1] + 2.0 * EDGE_DEG;
                 theta.extend([axis[0] - 2.0 * EDGE_DEG, last]);
@@ -191,14 +227,14 @@ impl Emitter {
         }
         theta.extend(self.cone.map(|cone| cone.half_deg));
         theta.retain(|theta| (0.0..=180.0).contains(theta));
-        let around = |it| matches!(it, Coordinate::Phi | Coordinate::Phi2 | Coordinate::Phi4);
+        let around = |it| matches!(it, Angle::Phi | Angle::Phi2 | Angle::Phi4);
         if let Some(axis) = data.and_then(|it| it.axis(around)) {
             let turned = |&at: &f64| if is_mirrored { 360.0 - at } else { at };
-            phi.extend(axis.iter().map(turned));
+            phi.extend(axis.iter().map(|at| at.rem_euclid(360.0)).map(|at| turned(&at)));
             for mirrored in [180.0, 360.0] {
                 let has = |it: &Distribution| match mirrored {
-                    180.0 => it.coordinates.contains(&Coordinate::Phi4),
-                    _ => !it.coordinates.contains(&Coordinate::Phi),
+                    180.0 => it.has(Angle::Phi4),
+                    _ => !it.has(Angle::Phi),
                 };
                 if data.is_some_and(has) {
                     phi.extend(phi.clone().into_iter().map(|at| mirrored - at));

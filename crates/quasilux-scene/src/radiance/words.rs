@@ -18,26 +18,31 @@ pub(super) struct Words<'t> {
     text: &'t str,
     rest: Peekable<CharIndices<'t>>,
     line: usize,
-    /// Where the line begins.
-    line_start: usize,
+    /// Of the next character.
+    column: usize,
+}
+
+/// Characters between words: other blanks belong to names.
+fn is_blank(c: char) -> bool {
+    c.is_ascii_whitespace() || c == '\x0b'
 }
 
 impl<'t> Words<'t> {
     pub(super) fn new(text: &'t str) -> Self {
-        Self { text, rest: text.char_indices().peekable(), line: 1, line_start: 0 }
+        Self { text, rest: text.char_indices().peekable(), line: 1, column: 1 }
     }
 
     /// Where the next character stands.
-    pub(super) fn place(&mut self) -> Position {
-        let at = self.rest.peek().map_or(self.text.len(), |&(at, _)| at);
-        Position { line: self.line, column: 1 + self.text[self.line_start..at].chars().count() }
+    pub(super) fn place(&self) -> Position {
+        Position { line: self.line, column: self.column }
     }
 
     fn step(&mut self) -> Option<char> {
-        let (at, c) = self.rest.next()?;
+        let (_, c) = self.rest.next()?;
+        self.column += 1;
         if c == '\n' {
             self.line += 1;
-            self.line_start = at + 1;
+            self.column = 1;
         }
         Some(c)
     }
@@ -46,15 +51,22 @@ impl<'t> Words<'t> {
     pub(super) fn skip_blanks(&mut self) -> Option<char> {
         loop {
             let &(_, c) = self.rest.peek()?;
-            if !c.is_whitespace() {
+            if !is_blank(c) {
                 return Some(c);
             }
             self.step();
         }
     }
 
-    /// The rest of the line; a line that ends with a backslash goes on in the next one.
-    pub(super) fn rest_of_line(&mut self) -> &'t str {
+    /// Passes the rest of the line.
+    pub(super) fn pass_comment(&mut self) {
+        while self.rest.peek().is_some_and(|&(_, c)| c != '\n') {
+            self.step();
+        }
+    }
+
+    /// The rest of a command; a line that ends with a backslash goes on in the next one.
+    pub(super) fn rest_of_command(&mut self) -> &'t str {
         let start = self.rest.peek().map_or(self.text.len(), |&(at, _)| at);
         let mut is_continued = false;
         while let Some(&(at, c)) = self.rest.peek() {
@@ -78,7 +90,7 @@ impl<'t> Words<'t> {
         let start = self.rest.peek().map_or(self.text.len(), |&(at, _)| at);
         let mut end = self.text.len();
         while let Some(&(at, c)) = self.rest.peek() {
-            if (is_quoted && c == first) || (!is_quoted && c.is_whitespace()) {
+            if (is_quoted && c == first) || (!is_quoted && is_blank(c)) {
                 end = at;
                 break;
             }
@@ -93,7 +105,7 @@ impl<'t> Words<'t> {
     /// The next word that is not in a comment: of counts and numbers.
     pub(super) fn next_behind_comments(&mut self) -> Option<Word<'t>> {
         while self.skip_blanks()? == '#' {
-            self.rest_of_line();
+            self.pass_comment();
         }
         self.next()
     }
@@ -113,11 +125,31 @@ mod tests {
         let word = words.next().unwrap();
         assert_eq!((word.text, word.place.line, word.place.column), ("#1", 2, 2));
         assert_eq!(words.skip_blanks(), Some('#'));
-        assert_eq!(words.rest_of_line(), "# x");
+        words.pass_comment();
         assert_eq!(words.skip_blanks(), Some('!'));
-        assert_eq!(words.rest_of_line(), "!cmd \\\n more");
+        assert_eq!(words.rest_of_command(), "!cmd \\\n more");
         assert_eq!(words.next().unwrap().place.line, 5);
         assert_eq!(words.next(), None);
         assert_eq!(Words::new("\"open").next().unwrap().text, "open");
+    }
+
+    #[test]
+    fn comments_end_with_their_line() {
+        let mut words = Words::new("# by C:\\\n0 # to D:\\\n 1");
+        assert_eq!(words.next_behind_comments().unwrap().text, "0");
+        assert_eq!(words.next_behind_comments().unwrap().text, "1");
+        assert_eq!(Words::new("a\u{a0}b c").next().unwrap().text, "a\u{a0}b");
+    }
+
+    /// A line of many words takes no time that grows with its square.
+    #[test]
+    fn columns_of_long_lines_are_cheap() {
+        let text = "1 ".repeat(400_000);
+        let mut words = Words::new(&text);
+        let mut last = None;
+        while let Some(word) = words.next() {
+            last = Some(word.place.column);
+        }
+        assert_eq!(last, Some(799_999));
     }
 }

@@ -12,6 +12,8 @@ use glam::DVec3;
 pub(super) const MAX_COPIES: u64 = 1_000_000;
 /// Most transforms of one command.
 const MAX_STEPS: usize = 100_000;
+/// Most arrays of one command.
+const MAX_ARRAYS: usize = 64;
 
 /// Transforms that are applied together.
 #[derive(Clone, Debug)]
@@ -81,8 +83,11 @@ impl Transforms {
         all.start(Repeat::Times(1));
         while let Some(option) = words.get(arguments.next) {
             let of = option.as_str();
-            if !(of.starts_with('-') && of.len() > 1) || arguments.next > MAX_STEPS {
+            if !(of.starts_with('-') && of.len() > 1) {
                 break;
+            }
+            if arguments.next > MAX_STEPS {
+                return Err(format!("xform has more than {MAX_STEPS} options; expected fewer"));
             }
             arguments.next += 1;
             let frame = match of {
@@ -111,15 +116,41 @@ impl Transforms {
             let block = all.blocks.last_mut().expect("a block is there from the start");
             block.frame = block.frame.then(&frame);
         }
+        all.settle();
         all.must_be_bounded()?;
         Ok(Parsed { transforms: all, used: arguments.next })
     }
 
+    /// Makes one block of those at the end that all copies share.
+    fn settle(&mut self) {
+        if let Some(last) = self.blocks.last_mut()
+            && let Repeat::Times(times) = last.repeat
+        {
+            let frame = power(&last.frame, times);
+            (last.frame, last.repeat) = (frame, Repeat::Times(1));
+            if let [.., before, _] = self.blocks.as_mut_slice()
+                && let Repeat::Times(1) = before.repeat
+            {
+                before.frame = before.frame.then(&frame);
+                self.blocks.pop();
+            }
+        }
+    }
+
+    /// Blocks that each copy goes through.
+    pub(super) fn steps(&self) -> u64 {
+        self.blocks.len() as u64
+    }
+
     fn start(&mut self, repeat: Repeat) {
+        self.settle();
         self.blocks.push(Block { frame: Frame::default(), repeat });
     }
 
     fn must_be_bounded(&self) -> Result<(), String> {
+        if self.sizes().count() > MAX_ARRAYS {
+            return Err(format!("xform has more than {MAX_ARRAYS} arrays; expected fewer"));
+        }
         let copies = self.sizes().try_fold(1_u64, u64::checked_mul);
         if copies.is_none_or(|copies| copies > MAX_COPIES) {
             return Err(format!("the arrays of xform make more than {MAX_COPIES} copies"));
@@ -218,16 +249,19 @@ impl Xform {
                 // Commands in files are expanded in any case.
                 "-c" | "-e" => arguments.next += 1,
                 "-I" => {
-                    xform.is_inverted = true;
+                    xform.is_inverted = !xform.is_inverted;
                     arguments.next += 1;
                 }
                 "-n" => {
                     arguments.next += 1;
-                    xform.name = Some(arguments.word("-n")?.to_owned());
+                    let name = arguments.word("-n")?;
+                    let outer = xform.name.take().map_or_else(String::new, |it| it + ".");
+                    xform.name = Some(outer + name);
                 }
                 "-m" => {
                     arguments.next += 1;
-                    xform.modifier = Some(arguments.word("-m")?.to_owned());
+                    let name = arguments.word("-m")?.to_owned();
+                    xform.modifier.get_or_insert(name);
                 }
                 "-f" => {
                     return Err(
@@ -298,5 +332,21 @@ mod tests {
         let xform = Xform::parse(&words("-n a -m b -I -t 1 2 3 x.rad y.rad")).unwrap();
         assert_eq!((xform.name.as_deref(), xform.modifier.as_deref()), (Some("a"), Some("b")));
         assert!(xform.is_inverted && xform.files == ["x.rad", "y.rad"]);
+        assert!(refusal(&"-a 1 ".repeat(50_000)).contains("more than 64 arrays"));
+        assert!(refusal(&"-mx ".repeat(200_000)).contains("more than 100000 options"));
+        let shared = format!("-a 9 -t 1 0 0 {}", "-i 1 -t 0 1 0 ".repeat(9000));
+        let shared = Transforms::parse(&words(&shared)).unwrap().transforms;
+        assert_eq!(shared.steps(), 3);
+        let frame = shared.copy(2).unwrap().frame;
+        assert_eq!(frame.shift, DVec3::new(2.0, 9000.0, 0.0));
+    }
+
+    /// As `xform` of Radiance 6.1 prints it.
+    #[test]
+    fn options_that_are_given_twice() {
+        let xform = Xform::parse(&words("-m a -m b -I -I -n a -n b x.rad")).unwrap();
+        assert_eq!(xform.modifier.as_deref(), Some("a"));
+        assert_eq!(xform.name.as_deref(), Some("a.b"));
+        assert!(!xform.is_inverted);
     }
 }

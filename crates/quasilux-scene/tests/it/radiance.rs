@@ -10,23 +10,23 @@ use std::f64::consts::PI;
 pub(crate) const FLOOR: &str = "void plastic grey 0 0 5 .5 .5 .5 0 0\n\
     grey polygon floor 0 0 12 0 0 0 1 0 0 1 1 0 0 1 0\n";
 
-fn try_load(scene: &str, others: &[(&str, &str)]) -> Result<Loaded, String> {
+pub(crate) fn try_load(scene: &str, others: &[(&str, &str)]) -> Result<Loaded, String> {
     let files = MapFiles::default().with("room.rad", scene);
     let files = others.iter().fold(files, |files, (name, text)| files.with(name, text));
     let project = PROJECT.replace("room.obj", "room.rad").replace("[0, 0, 0.8]", "[0, 0, 1e6]");
     load_text(&project, &files).map_err(|error| error.to_string())
 }
 
-fn loaded(scene: &str) -> Loaded {
+pub(crate) fn loaded(scene: &str) -> Loaded {
     try_load(scene, &[]).unwrap()
 }
 
-fn refusal(scene: &str) -> String {
+pub(crate) fn refusal(scene: &str) -> String {
     try_load(scene, &[]).err().unwrap_or_else(|| panic!("{scene} is read"))
 }
 
 /// Area and mean normal, of length 1 where it is flat, of the objects of a name.
-fn measured(loaded: &Loaded, name: &str) -> (f64, DVec3) {
+pub(crate) fn measured(loaded: &Loaded, name: &str) -> (f64, DVec3) {
     let mesh = &loaded.scene.mesh;
     let mut sum = DVec3::ZERO;
     let mut area = 0.0;
@@ -39,11 +39,11 @@ fn measured(loaded: &Loaded, name: &str) -> (f64, DVec3) {
     (area, sum / area)
 }
 
-fn bsdf<'l>(loaded: &'l Loaded, name: &str) -> &'l Bsdf {
+pub(crate) fn bsdf<'l>(loaded: &'l Loaded, name: &str) -> &'l Bsdf {
     &loaded.scene.materials.iter().find(|it| it.name == name).expect(name).bsdf
 }
 
-fn near(found: f64, expected: f64) {
+pub(crate) fn near(found: f64, expected: f64) {
     assert!((found - expected).abs() <= 1e-9 * expected.abs(), "{found} is not {expected}");
 }
 

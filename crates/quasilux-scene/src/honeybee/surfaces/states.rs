@@ -162,7 +162,7 @@ impl<'m> Collector<'_, 'm> {
     fn look_in_place(&mut self, modifier: &'m Modifier, name: &str) -> Result<Look, LoadError> {
         let look = self.look(modifier)?;
         match look {
-            Look::Unknown(message) => Err(LoadError::new(self.file, None, message)),
+            Look::Unknown(refusal) => Err(LoadError::new(self.file, None, refusal.message)),
             Look::Light(_) => {
                 self.findings.note(name, "light of a state of a group is left out");
                 Ok(in_place(look))

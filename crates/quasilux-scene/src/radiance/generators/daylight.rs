@@ -1,9 +1,12 @@
 //! `gendaylit`: a sky of Perez, Seals and Michalsky (1993) by two irradiances.
 
 use super::number;
-use super::sky::{When, primitive, when};
+use super::sky::{NO_YEAR, When, primitive, when};
 use crate::radiance::document::{Primitive, shown};
+use crate::radiance::look::EFFICACY_LM_W;
 use glam::DVec3;
+use quasilux_sky::{Irradiance, Perez, SkyPoint};
+use std::f64::consts::PI;
 
 /// The file of functions that its sky refers to here, where it has not been computed yet.
 pub(in crate::radiance) const FILE: &str = "gendaylit";
@@ -15,12 +18,19 @@ pub(in crate::radiance) struct Gendaylit {
     diffuse_horizontal_w_m2: f64,
     has_sun: bool,
     ground_reflectance: f64,
+    pub(super) remarks: Vec<&'static str>,
 }
+
+/// Full angle of the sun's disk in degrees, as the program writes it.
+const SUN_DEG: f64 = 0.533;
+/// A day on which the sun is at its mean distance, where none is told.
+const MEAN_DAY: u32 = 94;
 
 impl Gendaylit {
     pub(super) fn parse(words: &[String]) -> Result<Self, String> {
-        let When { sun, used } = when("gendaylit", words, "")?;
+        let When { sun, used } = when("gendaylit", words)?;
         let mut irradiances = None;
+        let mut remarks = Vec::new();
         let (mut has_sun, mut ground_reflectance) = (true, 0.2);
         let mut at = used;
         while let Some(option) = words.get(at) {
@@ -36,7 +46,8 @@ impl Gendaylit {
                 "-W" => irradiances = Some([value(at)?, value(at + 1)?]),
                 "-G" => irradiances = Some([value(at)? / sun.z.max(1e-3), value(at + 1)?]),
                 "-g" => ground_reflectance = value(at)?,
-                "-a" | "-o" | "-m" | "-y" => {}
+                "-a" | "-o" | "-m" => {}
+                "-y" => remarks.push(NO_YEAR),
                 _ => {
                     return Err(format!(
                         "the option {} of gendaylit is not read; give the irradiances of sun and \
@@ -49,9 +60,30 @@ impl Gendaylit {
         }
         let missing = || "gendaylit lacks the irradiances of sun and sky; give -W or -G".to_owned();
         let [direct_normal_w_m2, diffuse_horizontal_w_m2] = irradiances.ok_or_else(missing)?;
-        let sky =
-            Self { sun, direct_normal_w_m2, diffuse_horizontal_w_m2, has_sun, ground_reflectance };
-        Ok(sky)
+        Ok(Self {
+            sun,
+            direct_normal_w_m2,
+            diffuse_horizontal_w_m2,
+            has_sun,
+            ground_reflectance,
+            remarks,
+        })
+    }
+
+    /// Radiance of the sun's disk; `None` where none shines.
+    fn solar_radiance(&self) -> Option<f64> {
+        let DVec3 { x, y, z } = self.sun;
+        let altitude_deg = libm::atan2(z, libm::hypot(x, y)).to_degrees();
+        let azimuth_deg = libm::atan2(x, y).to_degrees().rem_euclid(360.0);
+        let irradiance = Irradiance {
+            direct_normal_w_m2: self.direct_normal_w_m2,
+            diffuse_horizontal_w_m2: self.diffuse_horizontal_w_m2,
+        };
+        let sun = SkyPoint { altitude_deg, azimuth_deg };
+        let perez = Perez::new(irradiance, sun, MEAN_DAY, Perez::DEW_POINT_C).ok()?;
+        let solid_angle = 2.0 * PI * (1.0 - libm::cos((0.5 * SUN_DEG).to_radians()));
+        let radiance = perez.normal_illuminance_lx() / EFFICACY_LM_W / solid_angle;
+        (self.has_sun && z > 0.0 && radiance > 0.0).then_some(radiance)
     }
 
     pub(super) fn primitives(&self) -> Vec<Primitive> {
@@ -60,6 +92,12 @@ impl Gendaylit {
         let (direct, diffuse) = (self.direct_normal_w_m2, self.diffuse_horizontal_w_m2);
         let reals = vec![direct, diffuse, x, y, z, has_sun, self.ground_reflectance];
         let strings = vec!["skybright".into(), FILE.into()];
-        vec![Primitive { strings, ..primitive("void", "brightfunc", "skyfunc", reals) }]
+        let mut all = Vec::new();
+        if let Some(radiance) = self.solar_radiance() {
+            all.push(primitive("void", "light", "solar", vec![radiance; 3]));
+            all.push(primitive("solar", "source", "sun", vec![x, y, z, SUN_DEG]));
+        }
+        all.push(Primitive { strings, ..primitive("void", "brightfunc", "skyfunc", reals) });
+        all
     }
 }

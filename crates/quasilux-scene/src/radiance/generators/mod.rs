@@ -32,6 +32,15 @@ impl Generator {
         })
     }
 
+    /// What of its arguments is otherwise here.
+    pub(super) fn remarks(&self) -> &[&'static str] {
+        match self {
+            Self::Box(_) | Self::Blinds(_) => &[],
+            Self::Sky(it) => &it.remarks,
+            Self::Daylight(it) => &it.remarks,
+        }
+    }
+
     /// Primitives that the program prints.
     pub(super) fn primitives(&self) -> Vec<Primitive> {
         match self {

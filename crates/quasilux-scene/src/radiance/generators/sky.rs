@@ -26,6 +26,7 @@ pub(in crate::radiance) struct Gensky {
     turbidity: f64,
     zenith: Option<Level>,
     solar: Option<Level>,
+    pub(super) remarks: Vec<&'static str>,
 }
 
 /// A brightness in W/m2/sr, or an irradiance of the horizontal in W/m2.
@@ -49,6 +50,42 @@ struct Site {
     meridian_deg: f64,
 }
 
+/// The highest sun of a clear sky.
+const MAX_ALTITUDE_DEG: f64 = 87.0;
+/// Of the option for a year.
+pub(super) const NO_YEAR: &str = "the year (-y) is left out: the sun is where it is in any year";
+/// Zones by their names, in degrees west of Greenwich, as `gensky` knows them.
+const ZONES: [(&str, f64); 28] = [
+    ("YST", 135.0),
+    ("YDT", 120.0),
+    ("PST", 120.0),
+    ("PDT", 105.0),
+    ("MST", 105.0),
+    ("MDT", 90.0),
+    ("CST", 90.0),
+    ("CDT", 75.0),
+    ("EST", 75.0),
+    ("EDT", 60.0),
+    ("AST", 60.0),
+    ("ADT", 45.0),
+    ("NST", 52.5),
+    ("NDT", 37.5),
+    ("GMT", 0.0),
+    ("BST", -15.0),
+    ("CET", -15.0),
+    ("CEST", -30.0),
+    ("EET", -30.0),
+    ("EEST", -45.0),
+    ("GST", -60.0),
+    ("GDT", -75.0),
+    ("IST", -82.5),
+    ("JST", -135.0),
+    ("NZST", -180.0),
+    ("NZDT", -195.0),
+    ("MSK", -45.0),
+    ("UTC", 0.0),
+];
+
 /// Solid angle of the sun's disk of half a degree, in sr.
 const SUN_SR: f64 = 5.981_161_3e-5;
 /// Its rounded value, by which `gensky` lights the ground.
@@ -59,7 +96,7 @@ const SUN_LM_W: f64 = 208.0;
 
 impl Gensky {
     pub(super) fn parse(words: &[String]) -> Result<Self, String> {
-        let When { sun, used } = when("gensky", words, "+-")?;
+        let When { sun, used } = when("gensky", words)?;
         let mut sky = Self {
             sun,
             clouds: Clouds::Clear,
@@ -68,6 +105,7 @@ impl Gensky {
             turbidity: 2.45,
             zenith: None,
             solar: None,
+            remarks: Vec::new(),
         };
         let mut at = used;
         while let Some(option) = words.get(at) {
@@ -84,12 +122,26 @@ impl Gensky {
                 "-r" => sky.solar = Some(Level::Radiance(value()?)),
                 "-R" => sky.solar = Some(Level::Irradiance(value()?)),
                 // Of the site.
-                "-a" | "-o" | "-m" | "-y" => {}
+                "-a" | "-o" | "-m" => {}
+                "-y" => sky.remarks.push(NO_YEAR),
                 _ => return Err(format!("the option {} of gensky is not read", shown(option))),
             }
             at += 1;
         }
+        sky.keep_off_the_zenith();
         Ok(sky)
+    }
+
+    /// Clear skies are not known with the sun near the zenith: it stays below, as in the program.
+    fn keep_off_the_zenith(&mut self) {
+        let most = MAX_ALTITUDE_DEG.to_radians();
+        let is_clear = matches!(self.clouds, Clouds::Clear | Clouds::Intermediate);
+        if is_clear && self.sun.z > libm::sin(most) {
+            self.remarks.push("the sun is above 87 degrees, and taken to be there, as gensky does");
+            let flat = DVec3::new(self.sun.x, self.sun.y, 0.0);
+            let flat = flat.try_normalize().unwrap_or(DVec3::NEG_Y);
+            self.sun = flat * libm::cos(most) + DVec3::Z * libm::sin(most);
+        }
     }
 
     fn take_model(&mut self, option: &str) -> bool {
@@ -203,9 +255,9 @@ pub(super) fn primitive(modifier: &str, kind: &str, name: &str, reals: Vec<f64>)
     Primitive { modifier, kind, name, strings: Vec::new(), reals }
 }
 
-/// Where the sun is, by `month day hour` and a site or by `-ang altitude azimuth`. Hours with one
-/// of the `solar` signs in front are solar time.
-pub(super) fn when(of: &str, words: &[String], solar: &str) -> Result<When, String> {
+/// Where the sun is, by `month day hour` and a site or by `-ang altitude azimuth`. Hours with a `+`
+/// in front are solar time; behind them may stand a time zone.
+pub(super) fn when(of: &str, words: &[String]) -> Result<When, String> {
     if words.first().is_some_and(|word| word == "-ang") {
         let angle = |at| number(words, at, of);
         return Ok(When { sun: direction(angle(1)?, angle(2)?), used: 3 });
@@ -215,11 +267,13 @@ pub(super) fn when(of: &str, words: &[String], solar: &str) -> Result<When, Stri
     }
     let (month, day) = (number(words, 0, of)?, number(words, 1, of)?);
     let hour = words.get(2).ok_or_else(|| format!("{of} lacks an argument; expected an hour"))?;
-    let is_solar = hour.starts_with(|c| solar.contains(c));
+    let is_solar = hour.starts_with('+');
     let digits = |c: char| c.is_ascii_digit() || "+-.:".contains(c);
     let end = hour.find(|c| !digits(c)).unwrap_or(hour.len());
     let (hour, zone) = hour.split_at(end);
-    if !zone.is_empty() {
+    let known = ZONES.iter().find(|(name, _)| name.eq_ignore_ascii_case(zone));
+    let meridian_deg = known.map_or(120.0, |(_, west_deg)| *west_deg);
+    if !zone.is_empty() && (known.is_none() || is_solar) {
         let zone = shown(zone);
         return Err(format!("the time zone {zone} of {of} is not read; give it in degrees as -m"));
     }
@@ -228,7 +282,7 @@ pub(super) fn when(of: &str, words: &[String], solar: &str) -> Result<When, Stri
     if !(1.0..=12.0).contains(&month) || !(1.0..=31.0).contains(&day) {
         return Err(format!("{of} has month {month} and day {day}; expected a date"));
     }
-    let site = Site::from_arguments(of, words)?;
+    let site = Site::from_arguments(of, words, meridian_deg)?;
     Ok(When { sun: site.sun(date, hour, is_solar), used: 3 })
 }
 
@@ -249,7 +303,7 @@ fn direction(altitude_deg: f64, azimuth_deg: f64) -> DVec3 {
 }
 
 impl Site {
-    fn from_arguments(of: &str, words: &[String]) -> Result<Self, String> {
+    fn from_arguments(of: &str, words: &[String], meridian_deg: f64) -> Result<Self, String> {
         let option = |name: &str, usual: f64| {
             let at = words.iter().rposition(|word| word == name);
             at.map_or(Ok(usual), |at| number(words, at + 1, of))
@@ -257,7 +311,7 @@ impl Site {
         Ok(Self {
             latitude_deg: option("-a", 0.66_f64.to_degrees())?,
             west_deg: option("-o", 2.13_f64.to_degrees())?,
-            meridian_deg: option("-m", 120.0)?,
+            meridian_deg: option("-m", meridian_deg)?,
         })
     }
 
@@ -294,6 +348,30 @@ mod tests {
             all.push(primitives[0].reals[0]);
         }
         all
+    }
+
+    /// The program takes the sun down to 87 degrees: its zenith is that of there.
+    #[test]
+    fn the_sun_stays_off_the_zenith() {
+        // Of `gensky -ang 90 0 +s` of Radiance 6.1.
+        assert!((sky("-ang 90 0 +s")[1] / 148.6 - 1.0).abs() < 1e-3);
+        let lower = sky("-ang 87 20 +s");
+        for (a, b) in sky("-ang 88 20 +s").iter().zip(lower) {
+            assert!((a - b).abs() <= 1e-9 * b.abs().max(1.0), "{a} is not {b}");
+        }
+        assert!(sky("-ang 88 20 -c")[1] > sky("-ang 87 20 -c")[1]);
+    }
+
+    #[test]
+    fn hours_have_signs_and_zones() {
+        assert_eq!(sky("6 21 14CEST -a 50 -o -10"), sky("6 21 14 -a 50 -o -10 -m -30"));
+        assert_eq!(sky("6 21 12EST"), sky("6 21 12 -m 75"));
+        // Solar noon: in the south, whatever the site.
+        assert!(sky("6 21 +12 -a 50 -o -10")[4].abs() < 1e-12);
+        assert!(sky("6 21 12 -a 50 -o -10 -m -15")[4].abs() > 1e-3);
+        let words = |text: &str| text.split(' ').map(str::to_owned).collect::<Vec<String>>();
+        assert!(Gensky::parse(&words("6 21 12XYZ")).unwrap_err().contains("time zone XYZ"));
+        assert_eq!(Gensky::parse(&words("6 21 12 -y 2020")).unwrap().remarks, [NO_YEAR]);
     }
 
     /// Against figures that `gensky` of Radiance 6.1 prints, with their digits.
