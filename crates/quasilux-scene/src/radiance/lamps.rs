@@ -14,6 +14,7 @@ use quasilux_photometry::{
     SphericalTable, Standard, Tilt, write_ies,
 };
 use std::collections::HashSet;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// A luminaire at its place.
@@ -120,40 +121,51 @@ fn facing(shape: &Shape) -> Option<DVec3> {
 }
 
 /// Shapes that follow each other and shine together, as indices.
-pub(super) fn groups(shapes: &[&Shape], joining: Joining) -> Vec<Vec<usize>> {
+pub(super) fn groups(shapes: &[&Shape], joining: Joining) -> Vec<Range<usize>> {
     let axes = [DVec3::X, DVec3::Y, DVec3::Z];
-    let mut groups: Vec<Vec<usize>> = Vec::new();
-    let mut around: Option<Bounds> = None;
-    for (index, shape) in shapes.iter().enumerate() {
-        let bounds = Bounds::from_shape(shape, axes);
-        let joined = groups.last_mut().zip(around).filter(|(group, around)| {
-            let others = || group.iter().map(|&other| shapes[other]);
-            match joining {
-                Joining::Apart => false,
-                Joining::Sheet => {
-                    group.len() == 1
-                        && around.is_near(&bounds)
-                        && others().all(|other| are_back_to_back(other, shape))
-                }
-                Joining::Body => {
-                    group.len() < MAX_SIDES
-                        && around.touches(&bounds)
-                        && others().all(|other| are_two_sides(other, shape))
-                }
+    let bounds: Vec<Bounds> = shapes.iter().map(|shape| Bounds::from_shape(shape, axes)).collect();
+    let mut groups = Vec::new();
+    let mut start = 0;
+    while start < shapes.len() {
+        let length = match joining {
+            Joining::Apart => 1,
+            Joining::Sheet => {
+                let is_sheet = start + 1 < shapes.len()
+                    && are_back_to_back(shapes[start], shapes[start + 1])
+                    && bounds[start].is_near(&bounds[start + 1]);
+                if is_sheet { 2 } else { 1 }
             }
-        });
-        match joined {
-            Some((group, before)) => {
-                group.push(index);
-                around = Some(before.with(bounds));
+            Joining::Body => {
+                let most = sides(&shapes[start..]);
+                let is_one = |length: &usize| are_connected(&bounds[start..start + length]);
+                (1..=most).rev().find(is_one).unwrap_or(1)
             }
-            None => {
-                groups.push(vec![index]);
-                around = Some(bounds);
-            }
-        }
+        };
+        groups.push(start..start + length);
+        start += length;
     }
     groups
+}
+
+/// The number of shapes at the front that may be sides of one body.
+fn sides(shapes: &[&Shape]) -> usize {
+    let most = shapes.len().min(MAX_SIDES);
+    let is_other = |&at: &usize| shapes[..at].iter().all(|other| are_two_sides(other, shapes[at]));
+    (0..most).take_while(is_other).count()
+}
+
+/// Whether one comes from each of a few to each by those that touch.
+fn are_connected(bounds: &[Bounds]) -> bool {
+    let mut reached = vec![0];
+    let mut next = 0;
+    while let Some(&from) = reached.get(next) {
+        let near = |to: &usize| bounds[from].touches(&bounds[*to]);
+        let others = (0..bounds.len()).filter(|to| !reached.contains(to)).filter(near);
+        let others: Vec<usize> = others.collect();
+        reached.extend(others);
+        next += 1;
+    }
+    reached.len() == bounds.len()
 }
 
 fn are_back_to_back(a: &Shape, b: &Shape) -> bool {
@@ -358,7 +370,7 @@ mod tests {
         };
         corners.reverse();
         let up = Shape::Polygon(corners);
-        assert_eq!(groups(&[&down, &up, &down], Joining::Sheet), [vec![0, 1], vec![2]]);
+        assert_eq!(groups(&[&down, &up, &down], Joining::Sheet), [0..2, 2..3]);
         assert_eq!(groups(&[&down, &up], Joining::Apart).len(), 2);
     }
 

@@ -434,8 +434,7 @@ impl Sorter<'_, '_> {
                 self.tables.budget.is_spent = true;
                 return Err(format!("more than {MAX_LAMPS} luminaires; expected fewer"));
             }
-            let shapes: Vec<&Shape> = group.iter().map(|&index| shapes[index]).collect();
-            match source.lamp(&definition.name, &shapes, &mut self.tables)? {
+            match source.lamp(&definition.name, &shapes[group], &mut self.tables)? {
                 Some(lamp) => made.lamps.push(lamp),
                 None => made.is_dark = true,
             }
