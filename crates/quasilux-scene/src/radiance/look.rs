@@ -118,7 +118,6 @@ impl Looks<'_> {
         if transmitted == 1.0 && straight == 1.0 && colour.is_grey() {
             let passed = rest.luminance();
             if passed == 1.0 {
-                self.note("all light goes straight through it, and it is left out");
                 return Look::Open;
             }
             let [through, back] = [passed, specularity].map(AngularTable::constant);

@@ -7,6 +7,7 @@ use crate::Rgb;
 use crate::bsdf::Mirror;
 use crate::{Bsdf, FileKind};
 use glam::DVec3;
+use std::fmt::Write;
 
 use super::definitions::Definition;
 use super::frame::Frame;
@@ -105,6 +106,9 @@ pub(super) fn look(definition: &Definition, reading: &mut Reading<'_, '_>) -> Lo
         "BSDF" | "aBSDF" => of.sheet(definition, reading),
         _ => of.look(&mut Looks { place: &place, findings: reading.findings }),
     };
+    if matches!(found, Ok(Look::Open)) && primitive.kind.starts_with("trans") {
+        reading.findings.note(&place, "all light goes straight through it, and it is left out");
+    }
     found.unwrap_or_else(|message| Look::Unknown(message.into()))
 }
 
@@ -304,4 +308,28 @@ impl Of<'_> {
         // One file is one table, wherever it is used.
         Ok(Look::Sheet { name: table.path, xml: table.text, up })
     }
+}
+
+/// Text that is the same for materials that are.
+pub(super) fn key(definition: &Definition, patterns: &[usize], is_textured: bool) -> String {
+    let primitive = &definition.primitive;
+    let mut key = format!(
+        "{:?} {:?} {:?} {} {}",
+        definition.name,
+        primitive.kind,
+        primitive.strings,
+        patterns.is_empty(),
+        is_textured
+    );
+    primitive.reals.iter().for_each(|real| {
+        write!(key, " {:x}", real.to_bits()).expect("strings grow");
+    });
+    if matches!(&*primitive.kind, "BSDF" | "aBSDF") {
+        write!(key, " {} {:?}", definition.place.file, definition.frame.turn)
+            .expect("strings grow");
+    }
+    if shines(&primitive.kind) {
+        write!(key, " {:?}", patterns).expect("strings grow");
+    }
+    key
 }

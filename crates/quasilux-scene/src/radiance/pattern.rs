@@ -186,10 +186,6 @@ impl<'d> Arguments<'d> {
             let side = reals.get(at).copied().filter(|side| *side >= 0.0 && *side <= 1e6);
             side.ok_or_else(|| "its real arguments are no lengths".to_owned())
         };
-        let over = |area: f64| {
-            let is_some = area > 0.0;
-            is_some.then(|| 1.0 / area).ok_or_else(|| "its area is 0".to_owned())
-        };
         let correction = match self.function {
             // Those of quasilux's own exports: over areas.
             "q_point" => Scaling::Plain(over(side(0)?)?),
@@ -228,6 +224,12 @@ impl<'d> Arguments<'d> {
         let (data, frame) = (Rc::clone(data), self.frame);
         Ok(Distribution { correction, coordinates, data, frame })
     }
+}
+
+/// The factor of an area.
+fn over(area: f64) -> Result<f64, String> {
+    let is_some = area > 0.0;
+    is_some.then(|| 1.0 / area).ok_or_else(|| "its area is 0".to_owned())
 }
 
 impl Distribution {

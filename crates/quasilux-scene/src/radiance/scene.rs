@@ -8,14 +8,13 @@ use super::findings::Findings;
 use super::includes::Includes;
 use super::lamps::{Lamp, Source, Tables, distribution_of, groups};
 use super::look::{Look, Refusal};
-use super::materials::{Reading, is_material, is_pattern, look, shines};
+use super::materials::{Reading, is_material, is_pattern, key, look, shines};
 use super::outside::{Far, Outside};
 use super::pattern::{Arguments, Distribution, Joining};
 use super::shapes::Shape;
 use crate::{FileKind, Files, LoadError};
 use quasilux_text::Position;
 use std::collections::{HashMap, HashSet};
-use std::fmt::Write;
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -318,7 +317,7 @@ impl Sorter<'_, '_> {
                 return self.material(&inner, depth + 1);
             }
         }
-        let key = key(&definition, chain);
+        let key = key(&definition, &chain.patterns, chain.is_textured);
         if let Some(&known) = self.numbers.get(&key) {
             return Ok(known);
         }
@@ -489,28 +488,4 @@ impl Sorter<'_, '_> {
         self.data.insert(file.path.to_string(), read.clone());
         read
     }
-}
-
-/// Text that is the same for materials that are.
-fn key(definition: &Definition, chain: &Chain) -> String {
-    let primitive = &definition.primitive;
-    let mut key = format!(
-        "{:?} {:?} {:?} {} {}",
-        definition.name,
-        primitive.kind,
-        primitive.strings,
-        chain.patterns.is_empty(),
-        chain.is_textured
-    );
-    primitive.reals.iter().for_each(|real| {
-        write!(key, " {:x}", real.to_bits()).expect("strings grow");
-    });
-    if matches!(&*primitive.kind, "BSDF" | "aBSDF") {
-        write!(key, " {} {:?}", definition.place.file, definition.frame.turn)
-            .expect("strings grow");
-    }
-    if shines(&primitive.kind) {
-        write!(key, " {:?}", chain.patterns).expect("strings grow");
-    }
-    key
 }

@@ -98,18 +98,7 @@ impl Shape {
             }
             "cone" | "cup" => {
                 needs(8)?;
-                let signs =
-                    [reals[6], reals[7]].map(|it| if it == 0.0 { 0.0 } else { it.signum() });
-                let sign = signs[0] + signs[1];
-                if sign == 0.0 {
-                    return Err(about(
-                        primitive,
-                        "radii of two signs, or none; expected two of one",
-                    ));
-                }
-                let is_inward = ((kind == "cup") != (sign < 0.0)) != *is_inverted;
-                let (from_radius, to_radius) = (radius(6), radius(7));
-                Self::Cone { from: point(0), to: point(3), from_radius, to_radius, is_inward }
+                Self::cone(primitive, placement)?
             }
             "ring" => {
                 needs(8)?;
@@ -128,6 +117,21 @@ impl Shape {
 }
 
 impl Shape {
+    /// A cone or a cup by its 8 real arguments.
+    fn cone(primitive: &Primitive, placement: &Placement) -> Result<Self, String> {
+        let Placement { frame, is_inverted } = placement;
+        let reals = primitive.reals.as_slice();
+        let point = |at: usize| frame.point(DVec3::new(reals[at], reals[at + 1], reals[at + 2]));
+        let signs = [reals[6], reals[7]].map(|it| if it == 0.0 { 0.0 } else { it.signum() });
+        let sign = signs[0] + signs[1];
+        if sign == 0.0 {
+            return Err(about(primitive, "radii of two signs, or none; expected two of one"));
+        }
+        let is_inward = ((&*primitive.kind == "cup") != (sign < 0.0)) != *is_inverted;
+        let [from_radius, to_radius] = [6, 7].map(|at| reals[at].abs() * frame.scale);
+        Ok(Self::Cone { from: point(0), to: point(3), from_radius, to_radius, is_inward })
+    }
+
     /// A ring by its 8 real arguments.
     fn ring(primitive: &Primitive, placement: &Placement) -> Result<Self, String> {
         let Placement { frame, is_inverted } = placement;

@@ -148,9 +148,12 @@ fn expect_materials(before: &Loaded, after: &Loaded) {
     let find = |loaded: &Loaded, name: &str| -> Bsdf {
         loaded.scene.materials.iter().find(|it| it.name == name).expect(name).bsdf.clone()
     };
-    for name in ["wood", "paper", "shiny", "water"] {
+    for name in ["wood", "shiny", "water"] {
         assert_eq!(find(after, &format!("m_{name}")), find(before, name), "{name}");
     }
+    let Bsdf::Translucent(paper) = find(after, "m_paper") else { panic!("a sheet") };
+    assert!((paper.reflectance.luminance() - 0.3).abs() < 1e-12);
+    assert!((paper.transmittance.luminance() - 0.2).abs() < 1e-12);
     let Bsdf::Pane(Pane::Measured { transmittance, .. }) = find(after, "m_glazing") else {
         panic!("a pane")
     };
