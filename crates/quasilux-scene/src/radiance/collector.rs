@@ -31,6 +31,13 @@ pub(super) struct RawSurface {
     pub(super) place: FilePlace,
 }
 
+/// An entry, by its file, which is kept, and its number therein.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+struct EntryKey {
+    include: *const Include,
+    number: usize,
+}
+
 /// Everything that was read so far.
 pub(super) struct Collector<'f> {
     pub(super) includes: Includes<'f>,
@@ -39,8 +46,8 @@ pub(super) struct Collector<'f> {
     primitives_left: u64,
     reals_left: u64,
     steps_left: u64,
-    /// By their files and numbers therein; each is read once.
-    commands: HashMap<(*const Include, usize), Rc<Command>>,
+    /// Each is read once.
+    commands: HashMap<EntryKey, Rc<Command>>,
 }
 
 /// How a file is put into the scene.
@@ -96,7 +103,7 @@ impl<'f> Collector<'f> {
                     })
                 }
                 EntryKind::Command(text) => self
-                    .parsed((Rc::as_ptr(include), number), text)
+                    .parsed(EntryKey { include: Rc::as_ptr(include), number }, text)
                     .and_then(|command| self.command(&command, context, &place, findings)),
             };
             done.map_err(|missing| match missing {
@@ -107,7 +114,7 @@ impl<'f> Collector<'f> {
         Ok(())
     }
 
-    fn parsed(&mut self, key: (*const Include, usize), text: &str) -> Result<Rc<Command>, Missing> {
+    fn parsed(&mut self, key: EntryKey, text: &str) -> Result<Rc<Command>, Missing> {
         if let Some(known) = self.commands.get(&key) {
             return Ok(Rc::clone(known));
         }
