@@ -114,8 +114,9 @@ impl<'f> Includes<'f> {
             }
             match self.bytes(&path, kind) {
                 Ok(bytes) => {
-                    // Tables take more memory than their texts.
-                    self.charge(4 * bytes.len() as u64)?;
+                    // Tables of numbers take more memory than their texts.
+                    let times = if kind == FileKind::Radiance { 4 } else { 1 };
+                    self.charge(times * bytes.len() as u64)?;
                     let text = String::from_utf8_lossy(&bytes).into();
                     let file = DataFile { path: path.as_str().into(), text };
                     self.texts.insert(path, file.clone());

@@ -26,7 +26,7 @@ pub(super) struct Budget {
 }
 
 /// Most intensities of all luminaires, times the surfaces of each.
-const MAX_ALL_VALUES: usize = 400_000_000;
+const MAX_ALL_VALUES: usize = 200_000_000;
 
 impl Default for Budget {
     fn default() -> Self {
@@ -197,18 +197,25 @@ impl Emitter {
     /// The table of intensities; `Err` where it is too large.
     pub(super) fn grid(&self, budget: &mut Budget) -> Result<Grid, String> {
         let mut angles = self.angles();
+        self.charge(&angles, budget)?;
         if !self.is_linear(&angles) {
             angles.theta.extend((0..=180).map(f64::from));
             angles.phi.extend((0..=72).map(|step| 5.0 * f64::from(step)));
             sort(&mut angles.theta);
             sort(&mut angles.phi);
+            self.charge(&angles, budget)?;
         }
+        Ok(self.table(&angles))
+    }
+
+    /// Takes a table off what those of a scene may have, too large or not.
+    fn charge(&self, angles: &Angles, budget: &mut Budget) -> Result<(), String> {
         let values = angles.theta.len().saturating_mul(angles.phi.len());
+        budget.spend(values.saturating_mul(self.parts.len()))?;
         if values > MAX_VALUES {
             return Err(format!("its table would have more than {MAX_VALUES} intensities"));
         }
-        budget.spend(values.saturating_mul(self.parts.len()))?;
-        Ok(self.table(&angles))
+        Ok(())
     }
 
     fn angles(&self) -> Angles {
