@@ -26,7 +26,7 @@ pub(super) struct FilePlace {
 #[derive(Clone, Debug)]
 pub(super) struct Definition {
     pub(super) modifier: Link,
-    /// What an `illum` is where it does not shine, as it was defined then.
+    /// Material of an `illum` where it does not shine, as it was defined then.
     pub(super) alternate: Option<Link>,
     pub(super) primitive: Arc<Primitive>,
     /// Name by which surfaces have it; an alias gives another one.

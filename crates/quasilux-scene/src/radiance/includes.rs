@@ -247,7 +247,7 @@ mod tests {
         assert_eq!(includes.candidates("sub/../a.rad", "b.rad").unwrap(), ["b.rad"]);
     }
 
-    /// What the project names may lie above it, and elsewhere, with files beside it.
+    /// Scenes of a project may lie above it, and elsewhere, with files beside them.
     #[test]
     fn files_are_beside_each_scene() {
         let scenes = ["../models/a.rad", "/data/b.rad", "D:\\rooms\\c.rad"];

@@ -238,7 +238,7 @@ impl Distribution {
         matches!(self.correction, Scaling::Flat(_))
     }
 
-    /// What it is a distribution of.
+    /// Surfaces that share the distribution.
     pub(super) fn joining(&self) -> Joining {
         match self.correction {
             Scaling::Plain(_) => Joining::Apart,

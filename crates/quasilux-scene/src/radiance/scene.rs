@@ -111,7 +111,7 @@ struct Shining {
     surfaces: Vec<RawSurface>,
 }
 
-/// What becomes of a surface, by a number of materials or of definitions.
+/// Fate of a surface, by a number of materials or of definitions.
 #[derive(Clone, Copy, Debug)]
 enum Sorted {
     Kept { material: usize },
@@ -125,7 +125,7 @@ struct Sorter<'f, 'n> {
     described: &'n HashSet<&'n str>,
     scene: Scene,
     chains: HashMap<usize, Chain>,
-    /// What becomes of surfaces, by their first modifiers.
+    /// Fates of surfaces, by their first modifiers.
     sorted: HashMap<usize, Sorted>,
     /// Numbers of materials, by all that they depend on.
     numbers: HashMap<String, usize>,

@@ -19,7 +19,7 @@ pub(crate) struct View {
 pub(crate) struct ViewLine {
     pub(crate) line: usize,
     pub(crate) view: Result<View, &'static str>,
-    /// What a camera has not of it.
+    /// Parts of it that a camera has not.
     pub(crate) note: Option<&'static str>,
 }
 

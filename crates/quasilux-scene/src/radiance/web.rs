@@ -18,7 +18,7 @@ const EDGE_DEG: f64 = 0.005;
 /// Largest share of the greatest intensity that lines between angles may be off.
 const MAX_ERROR: f64 = 2e-3;
 
-/// What the tables of a scene may take.
+/// Room for the tables of a scene.
 #[derive(Debug)]
 pub(super) struct Budget {
     values_left: usize,

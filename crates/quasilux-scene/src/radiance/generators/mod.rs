@@ -32,7 +32,7 @@ impl Generator {
         })
     }
 
-    /// What of its arguments is otherwise here.
+    /// Remarks on arguments that are otherwise here.
     pub(super) fn remarks(&self) -> &[&'static str] {
         match self {
             Self::Box(_) | Self::Blinds(_) => &[],
