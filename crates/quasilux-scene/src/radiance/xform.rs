@@ -116,13 +116,13 @@ impl Transforms {
             let block = all.blocks.last_mut().expect("a block is there from the start");
             block.frame = block.frame.then(&frame);
         }
-        all.settle();
+        all.join_shared();
         all.must_be_bounded()?;
         Ok(Parsed { transforms: all, used: arguments.next })
     }
 
     /// Makes one block of those at the end that all copies share.
-    fn settle(&mut self) {
+    fn join_shared(&mut self) {
         if let Some(last) = self.blocks.last_mut()
             && let Repeat::Times(times) = last.repeat
         {
@@ -143,7 +143,7 @@ impl Transforms {
     }
 
     fn start(&mut self, repeat: Repeat) {
-        self.settle();
+        self.join_shared();
         self.blocks.push(Block { frame: Frame::default(), repeat });
     }
 
