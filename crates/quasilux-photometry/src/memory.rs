@@ -11,7 +11,9 @@ const BYTES_BESIDES: usize = 32 * 1024;
 /// `file_bytes` bytes, its result included: no file decides on more.
 ///
 /// It holds for any bytes, not only for files as they should be. The bytes themselves, which are
-/// the caller's, are not counted.
+/// the caller's, are not counted. Of a GLDF container, whose files are deflated, the bytes are
+/// those that it unpacks, no more than 16 MiB, in files of no more than 8 MiB, of XML 2 MiB:
+/// [`read_gldf`](crate::read_gldf).
 #[must_use]
 pub const fn max_read_memory_bytes(file_bytes: usize) -> usize {
     BYTES_PER_BYTE.saturating_mul(file_bytes).saturating_add(BYTES_BESIDES)

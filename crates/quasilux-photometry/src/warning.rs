@@ -114,8 +114,8 @@ pub enum WarningKind {
     /// EULUMDAT: the luminaire was tilted while it was measured. It is taken in the position it
     /// was measured in: the tilt is kept as a fact and turns nothing.
     MeasurementTilt,
-    /// TM-33: an element that the standard requires, and that no intensity depends on, is missing
-    /// or empty. The file is read without it.
+    /// TM-33 and GLDF: an element that the standard requires, and that no intensity depends on, is
+    /// missing or empty. The file is read without it.
     MissingElement,
     /// TM-33: an element or attribute has the name that another writer uses, such as
     /// `IntensityData` with `horz` and `vert` for `IntData` with `h` and `v`. It is read as the one
@@ -139,6 +139,27 @@ pub enum WarningKind {
     /// TM-33: the luminous opening is an element `LuminousOpening` of the luminaire, which the
     /// standard has not. It is read in millimetres, as its writers mean it.
     OpeningInMillimetres,
+    /// GLDF: an EULUMDAT file in the container has lamps of 0 lm. The container's flux counts.
+    ZeroLampFlux,
+    /// GLDF: the rated flux of the light source is not that of the photometric file. The
+    /// container's counts.
+    ContainerFlux,
+    /// GLDF: the opening of a simple geometry is not that of the photometric file, or cannot be
+    /// given to it. The container's counts where it can be given.
+    ContainerOpening,
+    /// GLDF: the descriptive figures of a photometry contradict its intensities. These count.
+    DescriptionDiffers,
+    /// GLDF: an emitter shines in an emergency only. It stays dark unless it was asked for.
+    EmergencyEmitter,
+    /// GLDF: the photometry is turned in the luminaire. Who reads the container applies the turn.
+    EmitterTurned,
+    /// GLDF: several places of a 3D model shine with the emitter. The light is that of one.
+    ModelPlaces,
+    /// GLDF: the light source has several channels. All of them shine, unless one was asked for;
+    /// those of 0 lm stay dark.
+    SeveralChannels,
+    /// GLDF: the variant names no emitter. One of the product is taken.
+    VariantWithoutEmitter,
 }
 
 impl From<TextWarning> for WarningKind {

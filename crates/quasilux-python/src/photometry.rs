@@ -19,7 +19,7 @@ use quasilux_drawing::diagram::Diagram;
 use quasilux_photometry::analysis::{LuminaireAngles, ZonalFlux};
 use quasilux_photometry::{
     Analysis, Angles, Encoded, Format, IesStandard, PhotometricType, Photometry, Standard, Tilt,
-    TiltSupport, WarningKind, read_tilt, write_ies, write_ldt,
+    TiltSupport, WarningKind, is_gldf, read_tilt, write_ies, write_ldt,
 };
 use quasilux_scene::FileKind;
 use quasilux_text::Position;
@@ -71,6 +71,12 @@ fn read_photometry(
     file: &str,
     format: Option<&str>,
 ) -> PyResult<Luminaire> {
+    if is_gldf(file, &data) {
+        let message = "found a GLDF container; expected a photometric file: name the container in \
+                       the luminaires of a scene, or make a file of one of its lights by \
+                       `quasilux photometry --convert`";
+        return Err(at_place(py, file, None, message));
+    }
     let given: Option<Format> = format.map(|name| name.parse().map_err(input_error)).transpose()?;
     let Some(format) = given.or_else(|| py.detach(|| Format::from_file(file, &data))) else {
         let message = "found no line TILT= and no numbers in lines 3 to 7; expected a luminaire \

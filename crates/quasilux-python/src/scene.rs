@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 use pyo3::pybacked::PyBackedBytes;
 use pyo3::types::PyBytes;
 use quasilux::embedded::{self, Project, Source, Triangles};
-use quasilux_photometry::Format;
+use quasilux_photometry::{Format, is_gldf};
 use quasilux_report::json;
 use quasilux_scene::{Light, Scene as Model, SensorPoint, SensorShape};
 use serde::Serialize;
@@ -319,6 +319,9 @@ impl<'a> SensorEntry<'a> {
 /// The ending that the name of a luminaire file with this content has.
 #[pyfunction]
 fn photometry_ending(content: &[u8]) -> &'static str {
+    if is_gldf("", content) {
+        return "gldf";
+    }
     match Format::from_content(content) {
         Some(Format::Eulumdat) => "ldt",
         Some(Format::Tm33) => "xml",

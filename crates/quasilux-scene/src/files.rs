@@ -17,6 +17,8 @@ pub enum FileKind {
     Buffer,
     /// A luminaire: LM-63, EULUMDAT or TM-33.
     Photometry,
+    /// A product: GLDF, a container of luminaires with models and documents.
+    Container,
     /// Tilt factors of an LM-63 file.
     Tilt,
     /// A measured surface.
@@ -33,13 +35,14 @@ pub enum FileKind {
 
 impl FileKind {
     /// All kinds.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 13] = [
         Self::Geometry,
         Self::Model,
         Self::Radiance,
         Self::MaterialLibrary,
         Self::Buffer,
         Self::Photometry,
+        Self::Container,
         Self::Tilt,
         Self::Bsdf,
         Self::Weather,
@@ -54,7 +57,7 @@ impl FileKind {
         match self {
             Self::Geometry | Self::Buffer => 2 << 30,
             Self::Panorama => 1 << 30,
-            Self::Bsdf | Self::Model | Self::Radiance => 256 << 20,
+            Self::Bsdf | Self::Container | Self::Model | Self::Radiance => 256 << 20,
             Self::MaterialLibrary | Self::Photometry | Self::Weather => 64 << 20,
             Self::Glazing | Self::Schedule => 16 << 20,
             Self::Tilt => 1 << 20,

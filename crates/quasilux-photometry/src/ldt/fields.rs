@@ -8,11 +8,13 @@ use quasilux_text::{Number, ParseError, Position, Token, check_room, number_list
 pub(super) struct Fields<'t> {
     lines: &'t [&'t str],
     next: usize,
+    /// Lumens of the lamps that stand for 0 lm; without them a file of 0 lm is refused.
+    pub(super) for_zero_lm: Option<f64>,
 }
 
 impl<'t> Fields<'t> {
     pub(super) fn new(lines: &'t [&'t str]) -> Self {
-        Self { lines, next: 0 }
+        Self { lines, next: 0, for_zero_lm: None }
     }
 
     /// The next line, trimmed.

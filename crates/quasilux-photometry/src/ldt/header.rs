@@ -234,7 +234,12 @@ fn read_lamp_sets(
         warnings.push(WarningKind::ZeroLampCount, count.at, count.value, expected);
     }
     keep(fields, "LAMP", "the type of lamps (field 26b)", keywords)?;
-    let flux_lm = fields.number("the lamps' total flux in lm (field 26c)", warnings)?;
+    let mut flux_lm = fields.number("the lamps' total flux in lm (field 26c)", warnings)?;
+    if let (true, Some(instead_lm)) = (flux_lm.value == 0.0, fields.for_zero_lm) {
+        let expected = "a total flux above 0 lm (that of the container counts)";
+        warnings.push(WarningKind::ZeroLampFlux, flux_lm.at, "lamps of 0 lm", expected);
+        flux_lm.value = instead_lm;
+    }
     if flux_lm.value <= 0.0 {
         let expected = "a total flux of the lamps above 0 lm (field 26c)";
         return Err(ParseError::new(flux_lm.at, flux_lm.value, expected));

@@ -72,11 +72,22 @@ const FRACTION_TOLERANCE_PERCENT: f64 = 5.0;
 /// # Errors
 /// [`ParseError`] with the position where a line is missing, no number or out of range.
 pub fn read_ldt(bytes: &[u8]) -> Result<Parsed, ParseError> {
+    read(bytes, None)
+}
+
+/// Reads a file whose flux stands elsewhere: lamps of 0 lm count as 1000 lm, with a warning of the
+/// kind [`WarningKind::ZeroLampFlux`].
+pub(crate) fn read_ldt_of_any_flux(bytes: &[u8]) -> Result<Parsed, ParseError> {
+    read(bytes, Some(REFERENCE_FLUX_LM))
+}
+
+fn read(bytes: &[u8], for_zero_lm: Option<f64>) -> Result<Parsed, ParseError> {
     quasilux_text::refuse_web_page(bytes)?;
     let mut warnings = Warnings::default();
     let text = decode(bytes, &mut warnings);
     let lines: Vec<&str> = lines(&text).collect();
     let mut fields = Fields::new(&lines);
+    fields.for_zero_lm = for_zero_lm;
     let header = read_header(&mut fields, &mut warnings)?;
     let table = read_table(&header, &mut fields, &mut warnings)?;
     if let Some(Token { text, at }) = fields.after_last() {

@@ -5,6 +5,7 @@ use super::fields::{
     word,
 };
 use super::{check_flux, grid};
+use crate::sum::Summand;
 use crate::warning::{WarningKind, Warnings};
 use crate::{Grid, Keyword, PhotometricType, SphericalTable};
 use quasilux_text::xml::Element;
@@ -38,6 +39,11 @@ pub(super) struct StatedFlux {
 }
 
 impl Emitter {
+    /// Its part of the sum.
+    pub(super) fn summand(&self) -> Summand<'_> {
+        Summand { grid: &self.grid, table: &self.table, at: self.at }
+    }
+
     /// `None` for an emitter without luminous intensities.
     pub(super) fn read(
         element: &Element<'_>,

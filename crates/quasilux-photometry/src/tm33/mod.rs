@@ -8,9 +8,9 @@ mod emitter;
 mod fields;
 mod grid;
 mod opening;
-mod sum;
 
 use crate::photometry::FLUX_TOLERANCE;
+use crate::sum::{Summand, sum};
 use crate::warning::{WarningKind, Warnings};
 use crate::{
     Keyword, LuminaireFacts, Parsed, PhotometricType, Photometry, SphericalTable, Standard, Tilt,
@@ -44,7 +44,8 @@ pub fn read_tm33(bytes: &[u8]) -> Result<Parsed, ParseError> {
 
     let emitters = read_emitters(&root, photometric_type, &mut warnings)?;
     let opening = opening::read(&root, &mut warnings)?;
-    let table = sum::sum(&emitters)?;
+    let summands: Vec<Summand<'_>> = emitters.iter().map(Emitter::summand).collect();
+    let table = sum(&summands)?;
     if table.integral() <= 0.0 {
         let found = "an integrated flux of 0 lm";
         warnings.push(WarningKind::NoLight, emitters[0].at, found, "some light");

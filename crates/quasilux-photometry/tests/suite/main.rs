@@ -2,10 +2,13 @@
 
 mod analysis;
 mod closed_forms;
+#[path = "../container/mod.rs"]
+mod container;
 mod corpus;
 mod flux_causes;
 mod fluxes;
 mod format_pages;
+mod gldf;
 mod goodness;
 mod ldt;
 mod ldt_corpus;

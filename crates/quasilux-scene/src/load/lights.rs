@@ -3,15 +3,17 @@
 //! All of them are dimmed by the maintenance factor (CIE 97:2005: what an installation gives in use
 //! over what it gives when new), so that every figure of a run is a maintained one.
 
-use super::{materials::listed, photometry};
+use super::materials::listed;
+use super::photometry::{self, Told};
 use crate::geometry::Geometry;
 use crate::light::{AreaLight, Luminaire, PointLight};
 use crate::project::{Emission, LightEntry, LightOutput, LuminaireEntry, Project};
 use crate::{Files, Light, LoadError, Spanned, Warning};
-use glam::DVec3;
-use quasilux_photometry::{LuminousShape, Photometry, TiltSupport};
+use glam::{DMat3, DVec3};
+use quasilux_photometry::{GldfChoice, LuminousShape, Photometry, TiltFactor, TiltSupport};
 use quasilux_text::Position;
 use std::collections::HashMap;
+use std::collections::hash_map::Entry as MapEntry;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -20,22 +22,21 @@ pub(super) fn place(
     project: &Project,
     geometry: &Geometry,
     files: &dyn Files,
-    warnings: &mut Vec<Warning>,
+    told: &mut Told,
 ) -> Result<Vec<Light>, LoadError> {
-    let mut read: HashMap<&str, Arc<Photometry>> = HashMap::new();
+    let mut known: HashMap<LuminaireKey<'_>, Shared> = HashMap::new();
     let mut lights = Vec::new();
     for entry in &project.luminaires {
-        let name = entry.photometry.value.as_str();
-        let photometry = match read.get(name) {
-            Some(known) => Arc::clone(known),
-            None => {
-                let photometry = photometry::read(project, &entry.photometry, files, warnings)?;
-                let photometry = Arc::new(photometry.with_name(name));
-                read.insert(name, Arc::clone(&photometry));
-                photometry
+        let shared = match known.entry(LuminaireKey::new(entry)) {
+            MapEntry::Occupied(known) => known.get().clone(),
+            MapEntry::Vacant(unknown) => {
+                let read = photometry::read(project, entry, files, told)?;
+                let luminaire_from_photometry = read.luminaire_from_photometry;
+                let photometry = Arc::new(read.photometry);
+                unknown.insert(Shared { photometry, luminaire_from_photometry }).clone()
             }
         };
-        lights.push(Light::Luminaire(luminaire(project, entry, photometry, warnings)?));
+        lights.push(Light::Luminaire(luminaire(project, entry, shared, &mut told.warnings)?));
     }
     let mut emitting: HashMap<u32, Position> = HashMap::new();
     for entry in &project.lights {
@@ -69,18 +70,53 @@ pub(super) fn place(
     Ok(lights)
 }
 
+/// A luminaire of a file that several entries ask for.
+#[derive(PartialEq, Eq, Hash)]
+struct LuminaireKey<'a> {
+    file: &'a str,
+    choice: &'a GldfChoice,
+    length_bits: Option<u64>,
+}
+
+impl<'a> LuminaireKey<'a> {
+    fn new(entry: &'a LuminaireEntry) -> Self {
+        Self {
+            file: &entry.photometry.value,
+            choice: &entry.choice,
+            length_bits: entry.length_m.as_ref().map(|length_m| length_m.value.to_bits()),
+        }
+    }
+}
+
+/// A luminaire that was read.
+#[derive(Clone)]
+struct Shared {
+    photometry: Arc<Photometry>,
+    /// From the frame of the photometry to that of the luminaire.
+    luminaire_from_photometry: DMat3,
+}
+
 /// Places a luminaire; maintenance, and a lamp that feels the tilt, dim it.
 fn luminaire(
     project: &Project,
     entry: &LuminaireEntry,
-    photometry: Arc<Photometry>,
+    shared: Shared,
     warnings: &mut Vec<Warning>,
 ) -> Result<Luminaire, LoadError> {
-    let tilt_factor = tilt_factor(project, entry, &photometry, warnings);
+    let Shared { photometry, luminaire_from_photometry } = shared;
+    let turn = luminaire_from_photometry;
+    // Not a product with the identity, which would lose the signs of zeros.
+    let world_from_luminaire = if turn == DMat3::IDENTITY {
+        entry.world_from_luminaire
+    } else {
+        entry.world_from_luminaire * turn
+    };
+    let down = world_from_luminaire.transpose() * DVec3::NEG_Z;
+    let tilt_factor = tilt_factor(project, entry, photometry.tilt_factor(down), warnings);
     let dimming = dimming(project, entry, &photometry)?;
     Ok(Luminaire {
         position: entry.position,
-        world_from_luminaire: entry.world_from_luminaire,
+        world_from_luminaire,
         dimming: dimming * tilt_factor * project.maintenance_factor,
         shape: shape(project, entry, &photometry, warnings),
         photometry,
@@ -114,11 +150,9 @@ fn dimming(
 fn tilt_factor(
     project: &Project,
     entry: &LuminaireEntry,
-    photometry: &Photometry,
+    tilt: TiltFactor,
     warnings: &mut Vec<Warning>,
 ) -> f64 {
-    let down = entry.world_from_luminaire.transpose() * DVec3::NEG_Z;
-    let tilt = photometry.tilt_factor(down);
     let degrees = tilt.angle_rad.to_degrees();
     let odd = match tilt.support {
         // Factors that have not been read are warned of once, at their file.

@@ -13,6 +13,7 @@ mod places;
 mod schedule;
 
 use measured::Sources;
+use photometry::Told;
 pub use places::Places;
 
 use crate::annual::{Blinds, ElectricLight, YearTerms};
@@ -39,6 +40,9 @@ pub struct Loaded {
     pub electric_light: Vec<ElectricLight>,
     /// Settings that the project file asks of the engine.
     pub simulation: SimulationSection,
+    /// Facts of luminaire files beside their photometry, and lengths that luminaires were given,
+    /// for people: `file: fact`.
+    pub luminaire_notes: Vec<String>,
     /// Oddities that were lived with.
     pub warnings: Vec<Warning>,
 }
@@ -56,7 +60,8 @@ pub fn load(
     let project = Project::parse(project_name, project_bytes)?;
     let mut warnings = Vec::new();
     let mut sources = Sources::new(files);
-    let Built { scene, places, facts } = build(&project, &mut sources, &mut warnings)?;
+    let Built { scene, places, facts, luminaire_notes } =
+        build(&project, &mut sources, &mut warnings)?;
     let annual = annual::terms(&project, scene.weather.as_ref(), files)?;
     let intervals = scene.weather.as_ref().map_or(0, |weather| weather.hours.len());
     let blinds = blinds::hang(&project, intervals, &mut sources, &mut warnings)?;
@@ -71,6 +76,7 @@ pub fn load(
         blinds,
         electric_light,
         simulation,
+        luminaire_notes,
         warnings,
     })
 }
@@ -80,6 +86,7 @@ struct Built {
     scene: Scene,
     places: Places,
     facts: Option<SkyFacts>,
+    luminaire_notes: Vec<String>,
 }
 
 /// The scene of a project, its blinds open.
@@ -91,7 +98,9 @@ fn build(
     let files = sources.files;
     let geometry = geometry::read(project, files, warnings)?;
     let materials = materials::resolve(project, &geometry, sources, warnings)?;
-    let lights = lights::place(project, &geometry, files, warnings)?;
+    let mut told = Told::default();
+    let lights = lights::place(project, &geometry, files, &mut told)?;
+    warnings.append(&mut told.warnings);
     let sensors = project.sensors.iter().map(|entry| entry.sensor.clone()).collect();
     let cameras = project.cameras.iter().map(|entry| entry.camera.clone()).collect();
     let places = Places::new(project, &geometry);
@@ -103,7 +112,7 @@ fn build(
     enclosures::glass_must_be_closed(&scene, project, warnings);
     checks::places_in_walls(&scene, project, warnings)?;
     blurred_sun::tell(&scene, project, warnings);
-    Ok(Built { scene, places, facts })
+    Ok(Built { scene, places, facts, luminaire_notes: told.notes })
 }
 
 fn electric_light(project: &Project) -> Result<Vec<ElectricLight>, LoadError> {

@@ -5,15 +5,20 @@ mod attacks;
 mod bad_input;
 mod blinds;
 mod cameras;
+#[allow(dead_code, reason = "pieces that only tests of the reader need")]
+#[path = "../../../quasilux-photometry/tests/container/mod.rs"]
+mod container;
 mod corpus;
 mod export;
 mod glazing;
+mod gldf;
 mod gltf;
 mod honeybee;
 mod honeybee_corpus;
 mod honeybee_findings;
 mod honeybee_import;
 mod honeybee_mutations;
+mod lengths;
 mod materials;
 mod mutations;
 mod obj;

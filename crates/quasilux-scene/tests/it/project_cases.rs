@@ -304,7 +304,7 @@ pub(crate) const PROJECT_CASES: &[Case] = &[
         "spacing = 0.25",
         "spacing = 0.25\n[[luminaires]]\nphotometry = \"lamp.png\"\nposition = [0, 0, 2]",
         17,
-        "an .ies, .ldt or .xml (TM-33) file",
+        "an .ies, .ldt, .xml (TM-33) or .gldf file",
     ),
     case(
         "spacing = 0.25",

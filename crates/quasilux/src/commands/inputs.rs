@@ -77,6 +77,11 @@ impl Failure {
         Self::at(name, [error.line(), error.column()], error.message())
     }
 
+    /// A file as a whole.
+    pub(super) fn of_file(name: &str, message: String) -> Self {
+        Self { name: name.to_owned(), message, place: None }
+    }
+
     pub(super) fn at(name: &str, place: [usize; 2], message: String) -> Self {
         Self { name: name.to_owned(), message, place: Some(place) }
     }

@@ -12,6 +12,9 @@ mod build_commit;
 #[path = "../../build/fingerprint/mod.rs"]
 mod build_fingerprint;
 mod cameras;
+#[allow(dead_code, reason = "pieces that only tests of the reader need")]
+#[path = "../../../quasilux-photometry/tests/container/mod.rs"]
+mod container;
 mod daylight_factor;
 mod direct;
 mod door;
@@ -20,6 +23,7 @@ mod experiment;
 mod explain;
 mod fingerprint;
 mod glazing;
+mod gldf;
 mod honeybee;
 mod kept;
 mod kernels;

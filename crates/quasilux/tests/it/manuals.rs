@@ -2,7 +2,7 @@
 
 use crate::support::Folder;
 
-const COMMANDS: [&str; 17] = [
+const COMMANDS: [&str; 18] = [
     "run",
     "annual",
     "check",
@@ -17,6 +17,7 @@ const COMMANDS: [&str; 17] = [
     "merge",
     "resume",
     "import",
+    "export",
     "keys",
     "completions",
     "man",

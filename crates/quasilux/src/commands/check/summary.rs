@@ -32,6 +32,7 @@ pub(super) fn summary(project: &Project) -> String {
     section("geometry", geometry(project));
     section("materials", materials(scene));
     section("lights", (0..scene.lights.len()).map(|i| light(project, i)).collect());
+    section("from files", project.loaded.luminaire_notes.clone());
     let flux_lm = brief(scene.flux_lm(), 5);
     section(
         "flux",
@@ -147,13 +148,13 @@ fn at_normal(transmittance: f64) -> String {
 }
 
 fn light(project: &Project, index: usize) -> String {
-    let (scene, places) = (&project.loaded.scene, &project.loaded.places);
+    let scene = &project.loaded.scene;
     let light = &scene.lights[index];
     let flux_lm = brief(light.flux_lm(), 5);
     let number = index + 1;
     match light {
         Light::Luminaire(luminaire) => {
-            let file = places.photometry[index].as_deref().unwrap_or_default();
+            let file = luminaire.photometry.name();
             let turn = luminaire.world_from_luminaire;
             let (aim, c0) = (direction(-turn.z_axis), direction(turn.x_axis));
             let form = if luminaire.is_area() { luminaire.shape.name() } else { "point" };

@@ -4,11 +4,15 @@
 //! either `luminaire` with its `warnings`, or `error`; the other is `null`. Units stand in the
 //! names of the keys, shares run from 0 to 1, unknown figures are `null`. Angles are those of the
 //! luminaire frame; in planes gamma is negative on the side of C180 or C270, and above 180 where an
-//! arc passes zenith. `zones_lm` are 18 zones of 10 degrees from nadir to zenith.
+//! arc passes zenith. `zones_lm` are 18 zones of 10 degrees from nadir to zenith. `container` is
+//! that of a GLDF file: the photometric file in it, the rotation that it gives its photometry (a
+//! matrix, row by row; where it is not applied, all figures are those of the photometric file), and
+//! facts as texts; warnings have the file in the container that they are about in `part`.
 
-use super::input::{Input, Luminaire};
+use super::input::{Container, FileWarning, Input, Luminaire};
 use super::words::{self, degrees};
 use crate::commands::inputs::{ErrorEntry, Failure, WarningEntry};
+use quasilux_photometry::ContainerFact;
 use quasilux_photometry::analysis::{MaximumIntensity, PlaneAnalysis, Spread};
 use quasilux_report::json;
 use serde::Serialize;
@@ -32,7 +36,35 @@ struct FileEntry<'a> {
     file: &'a str,
     error: Option<ErrorEntry<'a>>,
     luminaire: Option<LuminaireEntry>,
-    warnings: Vec<WarningEntry>,
+    warnings: Vec<PartWarning<'a>>,
+}
+
+#[derive(Serialize)]
+struct PartWarning<'a> {
+    #[serde(flatten)]
+    warning: WarningEntry,
+    /// Left out for warnings about the file itself.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    part: Option<&'a str>,
+}
+
+#[derive(Serialize)]
+struct ContainerEntry {
+    photometric_file: String,
+    rotation: RotationEntry,
+    facts: Vec<FactEntry>,
+}
+
+#[derive(Serialize)]
+struct RotationEntry {
+    luminaire_from_photometry: [[f64; 3]; 3],
+    is_applied: bool,
+}
+
+#[derive(Serialize)]
+struct FactEntry {
+    name: &'static str,
+    value: String,
 }
 
 #[derive(Serialize)]
@@ -55,6 +87,8 @@ struct LuminaireEntry {
     principal_planes: [PlaneEntry; 2],
     flux_code: FluxCodeEntry,
     zones_lm: Vec<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    container: Option<ContainerEntry>,
 }
 
 #[derive(Serialize)]
@@ -96,7 +130,7 @@ impl<'a> FileEntry<'a> {
             file: &input.name,
             error: luminaire.err().map(Failure::entry),
             luminaire: luminaire.ok().map(LuminaireEntry::new),
-            warnings: warnings.iter().map(WarningEntry::new).collect(),
+            warnings: warnings.iter().map(|told| PartWarning::new(input, told)).collect(),
         }
     }
 }
@@ -133,7 +167,31 @@ impl LuminaireEntry {
                 upward: analysis.flux_code.upward,
             },
             zones_lm: analysis.zones_lm.to_vec(),
+            container: luminaire.container.as_ref().map(ContainerEntry::new),
         }
+    }
+}
+
+impl ContainerEntry {
+    fn new(container: &Container) -> Self {
+        let turn = container.rotation.luminaire_from_photometry;
+        let fact = |it: &ContainerFact| FactEntry { name: it.name, value: it.value.clone() };
+        Self {
+            photometric_file: container.part.clone(),
+            rotation: RotationEntry {
+                // Row by row.
+                luminaire_from_photometry: turn.transpose().to_cols_array_2d(),
+                is_applied: container.rotation.is_applied,
+            },
+            facts: container.facts.iter().map(fact).collect(),
+        }
+    }
+}
+
+impl<'a> PartWarning<'a> {
+    fn new(input: &Input, told: &'a FileWarning) -> Self {
+        let part = told.file.strip_prefix(&input.name).and_then(|it| it.strip_prefix('/'));
+        Self { warning: WarningEntry::new(&told.warning), part }
     }
 }
 

@@ -18,11 +18,20 @@ use crate::print::{print, print_document, tell};
 use crate::results;
 use input::{Input, Luminaire};
 use outputs::Outputs;
+use quasilux_photometry::GldfChoice;
 
 /// Reads and reports all files.
 pub(crate) fn photometry(arguments: &PhotometryArguments) -> Result<Exit, CliError> {
     let outputs = Outputs::prepare(arguments)?;
-    let inputs: Vec<Input> = arguments.files.iter().map(|path| Input::read(path)).collect();
+    let choice = GldfChoice {
+        variant: arguments.variant.clone(),
+        emitter: arguments.emitter.clone(),
+        light_source: arguments.light_source.clone(),
+        channel: arguments.channel.clone(),
+        emergency: arguments.emergency,
+    };
+    let inputs: Vec<Input> =
+        arguments.files.iter().map(|path| Input::read(path, &choice)).collect();
     for input in &inputs {
         if let Err(failure) = &input.luminaire {
             tell(format_args!("error: {failure}"));
@@ -44,7 +53,7 @@ pub(crate) fn photometry(arguments: &PhotometryArguments) -> Result<Exit, CliErr
         }
     }
     if let (Some(wanted), Some(first)) = (&outputs.conversion, read(&inputs).next()) {
-        conversion::convert(first.luminaire, wanted)?;
+        conversion::convert(&first, wanted)?;
     }
     Ok(exit(&inputs, arguments.strict))
 }

@@ -1,6 +1,6 @@
 //! The summary of a luminaire, for people.
 
-use super::input::{Input, Luminaire};
+use super::input::{Container, Input, Luminaire};
 use super::words::{self, degrees};
 use crate::commands::inputs::warning_line;
 use quasilux_photometry::analysis::{MaximumIntensity, PlaneAnalysis, Spread};
@@ -14,11 +14,12 @@ const DIGITS: i32 = 5;
 /// A line for the file, a line for each fact, and a line for each warning.
 pub(super) fn summary(input: &Input, luminaire: &Luminaire) -> String {
     let mut text = format!("{}\n", printable(&input.name));
-    for Row { name, value } in rows(luminaire) {
+    let container = luminaire.container.iter().flat_map(container_rows);
+    for Row { name, value } in rows(luminaire).into_iter().chain(container) {
         text += &format!("  {name:<15} {}\n", printable(&value));
     }
     for warning in &luminaire.warnings {
-        text += &warning_line(&input.name, warning);
+        text += &warning_line(&warning.file, &warning.warning);
         text.push('\n');
     }
     text
@@ -57,6 +58,22 @@ fn rows(luminaire: &Luminaire) -> Vec<Row> {
     }
     row("CIE flux code", flux_code(analysis));
     rows
+}
+
+/// Facts of a container, its photometric file first.
+fn container_rows(container: &Container) -> Vec<Row> {
+    let part = Row { name: "container", value: format!("GLDF, {}", container.part) };
+    let facts = container.facts.iter().map(|it| Row { name: it.name, value: it.value.clone() });
+    let turned = container.rotation.is_turned().then(|| Row {
+        name: "rotated",
+        value: if container.rotation.is_applied {
+            "yes, figures and diagrams are those of the rotated light".to_owned()
+        } else {
+            "not here: figures and diagrams are those of the photometric file; projects rotate it"
+                .to_owned()
+        },
+    });
+    std::iter::once(part).chain(facts).chain(turned).collect()
 }
 
 fn standard(luminaire: &Luminaire) -> String {
