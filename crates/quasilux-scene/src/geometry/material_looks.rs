@@ -2,7 +2,7 @@
 
 use super::FileScattering;
 use super::builder::{Look as FileLook, MeshBuilder};
-use crate::radiance::{Look, Refusal};
+use crate::radiance::{Look, Unusable};
 use crate::{Rgb, Warning};
 
 /// Notes what a material is made of.
@@ -16,9 +16,9 @@ pub(super) fn describe(
     let scattering = match look {
         Look::Surface(bsdf) => FileScattering::Described(bsdf),
         Look::Sheet { name, xml, up } => FileScattering::Sheet { name, xml, up },
-        Look::Unknown(Refusal { message, place }) => {
+        Look::Unknown(Unusable { message, place }) => {
             let message = format!("{message}, or [materials.{name:?}] in the project file");
-            FileScattering::Unknown(Refusal { message, place })
+            FileScattering::Unknown(Unusable { message, place })
         }
         Look::Light(_) => {
             let look = FileLook { reflectance: Rgb::BLACK, emits: true, is_clear: false };

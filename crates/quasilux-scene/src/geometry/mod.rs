@@ -28,7 +28,7 @@ mod seams;
 
 pub(crate) use crate::files::reason;
 use crate::project::{Project, UpAxis};
-use crate::radiance::Refusal;
+use crate::radiance::Unusable;
 use crate::{Bsdf, FileKind, Files, LoadError, Mesh, Rgb, Spanned, Warning, files as reading};
 use builder::MeshBuilder;
 pub use elsewhere::ifc_advice;
@@ -83,7 +83,7 @@ pub(crate) enum FileScattering {
         up: DVec3,
     },
     /// Something that there is nothing for, in the words of a refusal.
-    Unknown(Refusal),
+    Unknown(Unusable),
 }
 
 /// Format of a geometry file: a closed set, a module for each.

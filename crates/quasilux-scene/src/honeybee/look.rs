@@ -2,7 +2,7 @@
 
 use super::radiance::{Kind, Modifier, Named};
 use crate::bsdf::Mirror;
-use crate::radiance::{Coated, Findings, Look, Looks, Refusal, glass};
+use crate::radiance::{Coated, Findings, Look, Looks, Unusable, glass};
 use crate::{Bsdf, LoadError, Rgb};
 use glam::DVec3;
 
@@ -70,7 +70,7 @@ pub(super) fn look(
         Some("BSDF" | "aBSDF" | "ABSDF") => sheet(&read, modifier, looks)?,
         Some("Light" | "Glow") => light(&read, modifier, looks)?,
         Some("Void") => Look::Open,
-        other => Look::Unknown(Refusal::from(format!(
+        other => Look::Unknown(Unusable::from(format!(
             "modifier \"{name}\" is of the type {:?}, for which there is nothing here; expected \
              Plastic, Metal, Trans, Glass, Mirror, BSDF, Light, Glow or Void",
             other.unwrap_or("none")

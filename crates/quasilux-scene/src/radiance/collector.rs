@@ -198,12 +198,12 @@ impl<'f> Collector<'f> {
             );
             return Err(Missing::Refused(message));
         }
-        let copies = |all: u64, stage: &Xform| all.checked_mul(stage.transforms.copies());
+        let copies = |all: u64, piped: &Xform| all.checked_mul(piped.transforms.copies());
         let copies = command.stages.iter().try_fold(1, copies);
         let copies = copies.filter(|&copies| copies <= MAX_COPIES).ok_or_else(|| {
             Missing::Refused(format!("the arrays of a pipeline make more than {MAX_COPIES} copies"))
         })?;
-        let steps: u64 = command.stages.iter().map(|stage| stage.transforms.steps()).sum();
+        let steps: u64 = command.stages.iter().map(|piped| piped.transforms.steps()).sum();
         self.steps_left = self.steps_left.checked_sub(copies * steps).ok_or_else(|| {
             Missing::Refused(format!(
                 "up to here the copies of xform take more than {MAX_STEPS} steps; expected fewer"
@@ -214,9 +214,9 @@ impl<'f> Collector<'f> {
             let mut inner = Context { depth: context.depth + 1, ..context.clone() };
             let (mut rest, mut left) = (copy, copies);
             // The last program of a pipeline moves what the others have made.
-            for stage in command.stages.iter().rev() {
-                left /= stage.transforms.copies();
-                inner = inside(stage, rest / left, &inner)?;
+            for piped in command.stages.iter().rev() {
+                left /= piped.transforms.copies();
+                inner = inside(piped, rest / left, &inner)?;
                 rest %= left;
             }
             self.source(&command.source, &inner, place, findings)?;

@@ -5,7 +5,7 @@
 
 use super::definitions::Definition;
 use super::look::luminance_cd_m2;
-use super::pattern::{Arguments, Distribution, Joining};
+use super::pattern::{Arguments, Distribution, Grouping};
 use super::shapes::Shape;
 use super::web::{Budget, Cone, Emitter};
 use glam::DVec3;
@@ -121,21 +121,21 @@ fn facing(shape: &Shape) -> Option<DVec3> {
 }
 
 /// Shapes that follow each other and shine together, as indices.
-pub(super) fn groups(shapes: &[&Shape], joining: Joining) -> Vec<Range<usize>> {
+pub(super) fn groups(shapes: &[&Shape], grouping: Grouping) -> Vec<Range<usize>> {
     let axes = [DVec3::X, DVec3::Y, DVec3::Z];
     let bounds: Vec<Bounds> = shapes.iter().map(|shape| Bounds::from_shape(shape, axes)).collect();
     let mut groups = Vec::new();
     let mut start = 0;
     while start < shapes.len() {
-        let length = match joining {
-            Joining::Apart => 1,
-            Joining::Sheet => {
+        let length = match grouping {
+            Grouping::Apart => 1,
+            Grouping::Sheet => {
                 let is_sheet = start + 1 < shapes.len()
                     && are_back_to_back(shapes[start], shapes[start + 1])
                     && bounds[start].is_near(&bounds[start + 1]);
                 if is_sheet { 2 } else { 1 }
             }
-            Joining::Body => {
+            Grouping::Body => {
                 let most = sides(&shapes[start..]);
                 let is_one = |length: &usize| are_connected(&bounds[start..start + length]);
                 (1..=most).rev().find(is_one).unwrap_or(1)
@@ -357,8 +357,8 @@ mod tests {
             rectangle([0.0, 0.0], [0.1, 6.0], 3.0),
         ];
         let strips: Vec<&Shape> = strips.iter().collect();
-        for joining in [Joining::Sheet, Joining::Body, Joining::Apart] {
-            assert_eq!(groups(&strips, joining).len(), 4);
+        for grouping in [Grouping::Sheet, Grouping::Body, Grouping::Apart] {
+            assert_eq!(groups(&strips, grouping).len(), 4);
         }
     }
 
@@ -370,8 +370,8 @@ mod tests {
         };
         corners.reverse();
         let up = Shape::Polygon(corners);
-        assert_eq!(groups(&[&down, &up, &down], Joining::Sheet), [0..2, 2..3]);
-        assert_eq!(groups(&[&down, &up], Joining::Apart).len(), 2);
+        assert_eq!(groups(&[&down, &up, &down], Grouping::Sheet), [0..2, 2..3]);
+        assert_eq!(groups(&[&down, &up], Grouping::Apart).len(), 2);
     }
 
     #[test]

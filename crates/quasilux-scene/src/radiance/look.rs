@@ -34,17 +34,17 @@ pub(crate) enum Look {
     /// Nothing at all.
     Open,
     /// Something that quasilux has nothing for, in the words of a refusal.
-    Unknown(Refusal),
+    Unknown(Unusable),
 }
 
 /// Why a material is refused, and where it is defined.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Refusal {
+pub(crate) struct Unusable {
     pub(crate) message: String,
     pub(crate) place: Option<(Arc<str>, Position)>,
 }
 
-impl From<String> for Refusal {
+impl From<String> for Unusable {
     fn from(message: String) -> Self {
         Self { message, place: None }
     }

@@ -33,7 +33,7 @@ mod xform;
 
 pub(crate) use findings::Findings;
 pub(crate) use lamps::Lamp;
-pub(crate) use look::{Coated, Look, Looks, Refusal, invisible};
+pub(crate) use look::{Coated, Look, Looks, Unusable, invisible};
 pub(crate) use outside::{Ground, Outside, SkyKind};
 pub(crate) use points::points;
 pub(crate) use scene::{Scene, Surface};

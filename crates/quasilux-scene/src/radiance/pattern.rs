@@ -37,7 +37,7 @@ enum Scaling {
 
 /// Surfaces of one material that shine as one luminaire.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Joining {
+pub(super) enum Grouping {
     /// The sides of a body.
     Body,
     /// Both sides of a sheet.
@@ -191,7 +191,6 @@ impl<'d> Arguments<'d> {
             "q_point" => Scaling::Plain(over(side(0)?)?),
             "q_flat" => Scaling::Flat(over(side(0)?)?),
             "q_box" => Scaling::Box(1.0, DVec3::new(side(0)?, side(1)?, side(2)?)),
-            "q_tube" => Scaling::Cylinder(1.0, [side(0)?, side(1)?]),
             "corr" | "noop" => Scaling::Plain(first(Some(1.0))?),
             "flatcorr" => Scaling::Flat(first(Some(1.0))?),
             "boxcorr" | "lboxcorr" => {
@@ -239,11 +238,11 @@ impl Distribution {
     }
 
     /// Surfaces that share the distribution.
-    pub(super) fn joining(&self) -> Joining {
+    pub(super) fn grouping(&self) -> Grouping {
         match self.correction {
-            Scaling::Plain(_) => Joining::Apart,
-            Scaling::Flat(_) => Joining::Sheet,
-            Scaling::Box(..) | Scaling::Cylinder(..) => Joining::Body,
+            Scaling::Plain(_) => Grouping::Apart,
+            Scaling::Flat(_) => Grouping::Sheet,
+            Scaling::Box(..) | Scaling::Cylinder(..) => Grouping::Body,
         }
     }
 

@@ -7,10 +7,10 @@ use super::document::shown;
 use super::findings::Findings;
 use super::includes::Includes;
 use super::lamps::{Lamp, Source, Tables, distribution_of, groups};
-use super::look::{Look, Refusal};
+use super::look::{Look, Unusable};
 use super::materials::{Reading, is_material, is_pattern, key, look, shines};
 use super::outside::{Far, Outside};
-use super::pattern::{Arguments, Distribution, Joining};
+use super::pattern::{Arguments, Distribution, Grouping};
 use super::shapes::Shape;
 use crate::{FileKind, Files, LoadError};
 use quasilux_text::Position;
@@ -406,7 +406,7 @@ impl Sorter<'_, '_> {
                 let place = Some((Arc::clone(file), *at));
                 let name = self.free_name(&definition.name);
                 self.names.insert(name.clone());
-                let look = Look::Unknown(Refusal { message, place });
+                let look = Look::Unknown(Unusable { message, place });
                 let number = self.push_material(format!("dark {material}"), name, look);
                 surfaces.iter().for_each(|surface| self.keep(surface, number));
                 return Ok(());
@@ -426,9 +426,9 @@ impl Sorter<'_, '_> {
         surfaces: &[RawSurface],
     ) -> Result<Made, String> {
         let shapes: Vec<&Shape> = surfaces.iter().map(|surface| &surface.shape).collect();
-        let joining = source.distribution.as_ref().map_or(Joining::Apart, Distribution::joining);
+        let grouping = source.distribution.as_ref().map_or(Grouping::Apart, Distribution::grouping);
         let mut made = Made::default();
-        for group in groups(&shapes, joining) {
+        for group in groups(&shapes, grouping) {
             if self.scene.lamps.len() + made.lamps.len() >= MAX_LAMPS {
                 self.tables.budget.is_spent = true;
                 return Err(format!("more than {MAX_LAMPS} luminaires; expected fewer"));
