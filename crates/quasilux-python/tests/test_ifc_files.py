@@ -164,7 +164,7 @@ def test_the_command_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) ->
     words = [str(path), "--out", str(out), "--mapping", str(tmp_path / "m.toml"), "--space", "101"]
     assert program.main(words) == 0
     assert 'model.ifc: "ceiling": reflectance 0.7 by default' in capsys.readouterr().err
-    command_line("check", out)
+    command_line("check", out, "--out", tmp_path / "checked")
     assert program.main(words) == 2
     assert f"error: {out}: is there already" in capsys.readouterr().err
     assert program.main([str(path), "--list"]) == 0
