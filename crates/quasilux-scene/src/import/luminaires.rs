@@ -8,6 +8,7 @@ use super::Writer;
 use super::text::{number, quoted, vector};
 use crate::LoadError;
 use crate::honeybee::{Luminaire, LuminaireInstance, Model};
+use crate::radiance::sincos;
 use glam::DVec3;
 
 /// Most that a luminaire may be dimmed by, as in project files.
@@ -98,17 +99,6 @@ fn turned(instance: &LuminaireInstance) -> Turned {
     let [spin, tilt, rotation] = [instance.spin, instance.tilt, instance.rotation];
     let turn = |direction| about_z(about_y(about_z(direction, spin), tilt), rotation);
     Turned { aim: turn(DVec3::NEG_Z), c0: turn(DVec3::X) }
-}
-
-/// Sine and cosine of an angle in degrees; those of quarter turns are exact.
-fn sincos(degrees: f64) -> (f64, f64) {
-    match degrees.rem_euclid(360.0) {
-        0.0 => (0.0, 1.0),
-        90.0 => (1.0, 0.0),
-        180.0 => (0.0, -1.0),
-        270.0 => (-1.0, 0.0),
-        rest => libm::sincos(rest.to_radians()),
-    }
 }
 
 fn about_z(v: DVec3, degrees: f64) -> DVec3 {

@@ -81,7 +81,7 @@ impl Frame {
 }
 
 /// Sine and cosine of an angle in degrees; those of quarter turns are exact.
-fn sincos(degrees: f64) -> (f64, f64) {
+pub(crate) fn sincos(degrees: f64) -> (f64, f64) {
     match degrees.rem_euclid(360.0) {
         0.0 => (0.0, 1.0),
         90.0 => (1.0, 0.0),

@@ -32,6 +32,7 @@ mod words;
 mod xform;
 
 pub(crate) use findings::Findings;
+pub(crate) use frame::sincos;
 pub(crate) use lamps::Lamp;
 pub(crate) use look::{Coated, Look, Looks, Unusable, invisible};
 pub(crate) use outside::{Ground, Outside, SkyKind};
