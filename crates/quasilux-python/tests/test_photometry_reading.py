@@ -72,7 +72,9 @@ def test_all_figures_warnings_and_errors_are_those_of_the_command_line():
             lamp = photometry.read(file)
         except InputError as error:
             found = {"line": error.line, "column": error.column, "message": error.message}
-            assert entry["error"] == found
+            # The command line reads containers, too.
+            told = entry["error"]["message"].replace(", TM-33 or GLDF", " or TM-33")
+            assert {**entry["error"], "message": told} == found
             assert error.file == str(file)
             assert str(error) == f"{file}:{error.line}:{error.column}: {error.message}"
             continue
