@@ -46,7 +46,7 @@ fn states(sensors: &[Sensor], paths: &[LightPath]) -> Value {
         return json!({});
     }
     let names = |path: &LightPath| -> Value {
-        path.states.iter().map(|state| Value::from(state.name.as_str())).collect()
+        path.states.iter().map(|state| Value::from(state.as_str())).collect()
     };
     let of_grid: Map<String, Value> =
         paths.iter().map(|path| (path.name.clone(), names(path))).collect();

@@ -18,17 +18,10 @@ pub(super) const STATIC_STATE: &str = "default";
 #[derive(Debug)]
 pub(super) struct LightPath {
     pub(super) name: String,
-    /// Open first.
-    pub(super) states: Vec<State>,
-}
-
-/// A state of a group.
-#[derive(Debug)]
-pub(super) struct State {
-    /// The name of its folder.
-    pub(super) name: String,
-    /// The room with the group in the state, and all other groups black.
-    pub(super) room: Scene,
+    /// The number of the group.
+    group: usize,
+    /// The names of the folders of its states, open first.
+    pub(super) states: Vec<String>,
 }
 
 /// Light paths of a project, and the names of the groups of blinds that are none.
@@ -58,12 +51,9 @@ pub(super) fn light_paths(loaded: &Loaded) -> Result<LightPaths, String> {
                  name that can be a file name, unique whatever its case"
             ));
         }
-        let state = |position: usize| State {
-            name: format!("{position}_{name}"),
-            room: room(loaded, blinds, number, position),
-        };
+        let state = |position: usize| format!("{position}_{name}");
         let states = (0..=group.positions.len()).map(state).collect();
-        found.paths.push(LightPath { name: name.clone(), states });
+        found.paths.push(LightPath { name: name.clone(), group: number, states });
     }
     Ok(found)
 }
@@ -77,17 +67,20 @@ pub(super) fn without_groups(loaded: &Loaded) -> Scene {
     room
 }
 
-/// The room with one group in a position, the others open and their windows black.
-fn room(loaded: &Loaded, blinds: &Blinds, number: usize, position: usize) -> Scene {
-    let mut positions = vec![0; blinds.groups.len()];
-    positions[number] = position;
-    let mut room = blinds.room(&loaded.scene, &positions);
-    for (other, group) in blinds.groups.iter().enumerate() {
-        if other != number {
-            blacken(&mut room, group, &loaded.scene);
+impl LightPath {
+    /// The room with the group in a state, the others open and their windows black. `blinds` are
+    /// those that the light path is of.
+    pub(super) fn room(&self, open: &Scene, blinds: &Blinds, state: usize) -> Scene {
+        let mut positions = vec![0; blinds.groups.len()];
+        positions[self.group] = state;
+        let mut room = blinds.room(open, &positions);
+        for (other, group) in blinds.groups.iter().enumerate() {
+            if other != self.group {
+                blacken(&mut room, group, open);
+            }
         }
+        room
     }
-    room
 }
 
 fn blacken(room: &mut Scene, group: &BlindsGroup, open: &Scene) {

@@ -23,6 +23,7 @@ use arrays::{ArrayReader, ArrayWriter};
 use clock::Clock;
 use light_paths::{LightPath, LightPaths, STATIC, STATIC_STATE, light_paths, without_groups};
 use metrics::Metrics;
+use quasilux_scene::{Loaded, Scene, Sensor};
 use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -123,12 +124,14 @@ impl<'y> HoneybeeFolder<'y> {
         if !self.fill(writer, &room)? {
             return Ok(false);
         }
+        let Loaded { scene: open, blinds, .. } = &self.year.project().loaded;
+        let Some(blinds) = blinds else { return Ok(true) };
         for path in &self.paths {
-            for state in &path.states {
-                let folder = results.join(&path.name).join(&state.name);
+            for (number, state) in path.states.iter().enumerate() {
+                let folder = results.join(&path.name).join(state);
                 let beside = ArrayReader::open(&of_static, self.sensors(), &self.clock);
                 let writer = self.writer(&folder)?.without(beside);
-                if !self.fill(writer, &state.room)? {
+                if !self.fill(writer, &path.room(open, blinds, number))? {
                     return Ok(false);
                 }
             }
@@ -136,7 +139,7 @@ impl<'y> HoneybeeFolder<'y> {
         Ok(true)
     }
 
-    fn sensors(&self) -> &'y [quasilux_scene::Sensor] {
+    fn sensors(&self) -> &'y [Sensor] {
         &self.year.project().loaded.scene.sensors
     }
 
@@ -145,11 +148,7 @@ impl<'y> HoneybeeFolder<'y> {
     }
 
     /// Simulates the year of a room into arrays.
-    fn fill(
-        &self,
-        mut arrays: ArrayWriter<'_>,
-        room: &quasilux_scene::Scene,
-    ) -> Result<bool, CliError> {
+    fn fill(&self, mut arrays: ArrayWriter<'_>, room: &Scene) -> Result<bool, CliError> {
         let is_complete = self.year.simulate_in(room, &mut |block| {
             block.points.iter().try_for_each(|point| arrays.take(point, &self.clock))
         })?;
