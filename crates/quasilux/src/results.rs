@@ -9,7 +9,7 @@ use quasilux_report::{
 };
 use std::fs::{File, TryLockError};
 use std::io::{self, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Makes sure that results can be written to `folder` before anything is computed.
 pub(crate) fn prepare(folder: &Path) -> Result<(), CliError> {
@@ -160,6 +160,30 @@ pub(crate) fn stream_atomic(
     atomic_file::write_beside(path, write)
         .and_then(atomic_file::Finished::publish)
         .map_err(|error| cannot_write(path, &error))
+}
+
+/// The first of these paths where something is, were it a link that leads nowhere.
+pub(crate) fn first_taken(mut paths: impl Iterator<Item = PathBuf>) -> Option<PathBuf> {
+    paths.find(|path| path.symlink_metadata().is_ok())
+}
+
+/// A file that is not there yet.
+pub(crate) struct NewFile<'b> {
+    pub(crate) path: PathBuf,
+    pub(crate) bytes: &'b [u8],
+}
+
+/// Writes files: all of them, or none.
+pub(crate) fn write_all_new(files: &[NewFile<'_>]) -> Result<(), CliError> {
+    for (number, NewFile { path, bytes }) in files.iter().enumerate() {
+        let written = write_atomic(path, bytes);
+        if written.is_err() {
+            // A part of them is of no use, and would keep the next try from its place.
+            files[..number].iter().for_each(|it| _ = std::fs::remove_file(&it.path));
+        }
+        written?;
+    }
+    Ok(())
 }
 
 /// Says of a file that it cannot be read again.

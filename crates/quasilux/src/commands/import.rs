@@ -5,7 +5,7 @@ use crate::exit::{CliError, Exit};
 use crate::heartbeat::Heartbeat;
 use crate::print::tell;
 use crate::project::Project;
-use crate::results;
+use crate::results::{self, NewFile};
 use crate::source::{Model, Source, folder_of};
 use quasilux_scene::{Imported, ImportedFile, Warning};
 use std::path::Path;
@@ -14,7 +14,7 @@ use std::path::Path;
 pub(crate) fn import(arguments: &ImportArguments) -> Result<Exit, CliError> {
     let ImportArguments { models, out, weather, points, views } = arguments;
     let model = Model::from_files(models, points, views)?;
-    if out.exists() {
+    if results::first_taken([out.clone()].into_iter()).is_some() {
         let message = "is there already; give --out another name, or remove it";
         return Err(CliError::in_file(out.display(), None, message));
     }
@@ -23,7 +23,7 @@ pub(crate) fn import(arguments: &ImportArguments) -> Result<Exit, CliError> {
     let weather = weather.as_deref();
     let Imported { text, files, findings, measures } = model.import(weather, &folder, &stem)?;
     let beside = |file: &ImportedFile| folder.join(&file.name);
-    if let Some(taken) = files.iter().map(beside).find(|path| path.exists()) {
+    if let Some(taken) = results::first_taken(files.iter().map(beside)) {
         let message = "is there already, and the project would have a file of this name; give \
                        --out another name, or remove it";
         return Err(CliError::in_file(taken.display(), None, message));
@@ -33,10 +33,9 @@ pub(crate) fn import(arguments: &ImportArguments) -> Result<Exit, CliError> {
     if !folder.as_os_str().is_empty() {
         results::prepare(&folder)?;
     }
-    for file in &files {
-        results::write_atomic(&beside(file), &file.bytes)?;
-    }
-    results::write_atomic(out, text.as_bytes())?;
+    let new = files.iter().map(|it| NewFile { path: beside(it), bytes: it.bytes.as_slice() });
+    let project = NewFile { path: out.clone(), bytes: text.as_bytes() };
+    results::write_all_new(&new.chain([project]).collect::<Vec<_>>())?;
     warnings.iter().for_each(|warning| tell(format_args!("warning: {warning}")));
     Ok(Exit::Done)
 }
