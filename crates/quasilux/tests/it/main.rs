@@ -21,6 +21,7 @@ mod door;
 mod embedded;
 mod experiment;
 mod explain;
+mod export;
 mod fingerprint;
 mod glazing;
 mod gldf;
